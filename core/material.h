@@ -1,0 +1,65 @@
+// What a surface does to light: its lobes, and for each lobe how to sample a direction, with
+// what density, and the value of the bsdf, kept together so that they cannot disagree. `wi` and
+// `wo` are unit and point away from the surface.
+#ifndef PM_MATERIAL_H
+#define PM_MATERIAL_H
+
+#include "intersect.h"
+#include "rng.h"
+#include "scene.h"
+
+#define PM_LOBES_MAX 3
+
+typedef enum {
+    PM_LOBE_DIFFUSE,  // cosine about the normal
+    PM_LOBE_REFLECT,  // one mirrored direction
+    PM_LOBE_TRANSMIT, // one refracted direction
+} pm_lobe_type;
+
+/// A share of the light that a surface scatters.
+typedef struct {
+    pm_lobe_type type;
+    bool specular;      // sampling it is an S event; otherwise D
+    pm_spectrum albedo; // ratio of power carried on to power arriving, per channel, in [0, 1]
+} pm_lobe;
+
+/// The lobes of one hit, seen from the side of `wi`. No lobe: the surface absorbs.
+typedef struct {
+    pm_lobe lobe[PM_LOBES_MAX];
+    int count;
+    bool diffuse; // one of them is a D lobe: photons are stored here
+    bool passes;  // a null surface: the ray goes on, nothing happens
+    pm_vec3 wi;
+    pm_vec3 normal;    // unit geometric normal on the side of wi
+    double eta;        // index where wi runs over index on the other side
+    double cos_beyond; // cosine of the refracted direction, 0 on total reflection
+    int medium_here;   // medium on the side of wi, and on the other one
+    int medium_beyond;
+} pm_lobes;
+
+/// A sampled continuation of a path.
+typedef struct {
+    pm_vec3 wo;
+    pm_spectrum weight; // bsdf * |cos| / pdf over the lobe's albedo: the direction's own weight
+    double pdf;         // [1/sr] of wo within its lobe; 0 for a delta lobe
+    double
+        radiance; // factor on radiance travelling back along wo: (n_i / n_t)^2, 1 if reflected
+    int medium;   // that the ray along wo runs in
+} pm_scatter;
+
+/// The lobes at `hit` for light arriving from, or leaving towards, `wi`.
+/// Albedos are the same for power and for radiance; the n^2 factor of radiance is in
+/// pm_scatter.
+void pm_material_lobes(const pm_scene *scene, const pm_hit *hit, pm_vec3 wi, double wavelength,
+                       pm_lobes *lobes);
+
+/// A direction from lobe number `which`.
+void pm_material_sample(const pm_lobes *lobes, int which, pm_rng *rng, pm_scatter *scatter);
+
+/// Value of the D lobes towards `wo` [1/sr], without a cosine; 0 on the other side.
+pm_spectrum pm_material_evaluate(const pm_lobes *lobes, pm_vec3 wo);
+
+/// Density [1/sr] with which lobe `which` samples `wo`; 0 for a delta lobe.
+double pm_material_pdf(const pm_lobes *lobes, int which, pm_vec3 wo);
+
+#endif

@@ -1,0 +1,31 @@
+// Handling whole maps, around the stage that fills them.
+#ifndef PM_PHOTON_MAP_H
+#define PM_PHOTON_MAP_H
+
+#include "photon.h"
+#include "status.h"
+
+/// Room for at least `capacity` photons, keeping those there are. PM_ELIMIT above PM_MAP_MAX.
+pm_status pm_photon_map_reserve(pm_photon_map *map, uint64_t capacity);
+
+/// Appends all photons and counters of `part` (same packing) to `map`.
+pm_status pm_photon_map_append(pm_photon_map *map, const pm_photon_map *part);
+
+/// Gives back the room beyond `count`.
+void pm_photon_map_trim(pm_photon_map *map);
+
+/// Bytes held for photons.
+uint64_t pm_photon_map_bytes(const pm_photon_map *map);
+
+/// Frees the photons; the map is empty and may be used again.
+void pm_photon_map_free(pm_photon_map *map);
+
+/// Total power of the map [W], summed in index order in double.
+pm_spectrum pm_photon_map_power(const pm_photon_map *map);
+
+/// A unit normal in 12 bits (octahedral, 6 + 6; axes are exact, others to 3 degrees) and back.
+/// Code 4095 stands for no normal and decodes to the zero vector.
+uint16_t pm_normal_encode(pm_vec3 normal);
+pm_vec3 pm_normal_decode(uint16_t code);
+
+#endif

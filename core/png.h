@@ -1,0 +1,14 @@
+// Pictures for looking at: 8-bit sRGB PNG.
+#ifndef PM_PNG_H
+#define PM_PNG_H
+
+#include "image.h"
+
+/// Writes R G B of `image` times 2^exposure, clipped to [0, 1], with the sRGB curve.
+/// Writes beside `path` and renames.
+pm_status pm_png_write(const char *path, const pm_image *image, double exposure);
+
+/// Writes 8-bit pixels as they are: width * height * 3 bytes, rows from the top.
+pm_status pm_png_write_bytes(const char *path, const uint8_t *pixels, int width, int height);
+
+#endif

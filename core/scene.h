@@ -1,0 +1,128 @@
+// A scene as plain data, after reading: shapes in world space, materials, lights, one camera.
+//
+// World space is centred: the reader subtracts `center` from every shape, light and camera in
+// double before anything becomes float, and output adds it back. Lengths are in metres.
+#ifndef PM_SCENE_H
+#define PM_SCENE_H
+
+#include "spectrum.h"
+#include "vec.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#define PM_NONE (-1)
+
+typedef enum {
+    PM_BSDF_DIFFUSE,
+    PM_BSDF_DIELECTRIC,
+    PM_BSDF_CONDUCTOR,
+    PM_BSDF_NULL, // no event: light passes as if nothing were there
+} pm_bsdf_type;
+
+/// One bsdf. Ratios lie in [0, 1], indices are > 0.
+typedef struct {
+    pm_bsdf_type type;
+    const char *id; // as in the file, or TYPE@LINE
+    int line;
+    pm_spectrum reflectance;            // diffuse albedo
+    pm_spectrum specular_reflectance;   // factor on what a smooth lobe reflects
+    pm_spectrum specular_transmittance; // factor on what a dielectric transmits
+    double int_ior, ext_ior;            // dielectric: inside is opposite to the normal
+    bool perfect_mirror;                // conductor with material "none": reflects everything
+    pm_spectrum eta, k;                 // conductor otherwise, relative to vacuum
+} pm_material;
+
+typedef enum {
+    PM_SHAPE_RECTANGLE,
+    PM_SHAPE_SPHERE,
+    PM_SHAPE_DISK,
+    PM_SHAPE_CYLINDER, // open, without caps
+    PM_SHAPE_MESH,     // cube, ply, obj
+} pm_shape_type;
+
+/// One shape in world space. Its geometric normal is the one of the formula given, negated when
+/// `flipped`; materials and emission refer to that final normal.
+typedef struct {
+    pm_shape_type type;
+    const char *id; // as in the file, or TYPE@LINE
+    int line;
+    bool flipped;
+    int material[2]; // index for the side of the normal and the side behind; PM_NONE absorbs
+    int light;       // index of the area light on it, or PM_NONE
+    int interior, exterior; // index of the medium behind and before, or PM_NONE
+    double area;            // [m^2]
+    double reach;           // largest |coordinate| of any of its points; hits take their own
+                            // triangle's instead
+
+    pm_vec3 corner; // rectangle: corner + u edge[0] + v edge[1]; normal edge[0] x edge[1]
+    pm_vec3 edge[2];
+
+    pm_vec3 center; // sphere, disk; centre of a cylinder's first end
+    pm_vec3 axis;   // unit: a disk's normal; a cylinder's direction to its second end
+    double radius;  // sphere normal outward; cylinder normal away from the axis
+    double length;  // cylinder
+
+    pm_vec3 *vertices; // mesh; normal (v1 - v0) x (v2 - v0)
+    uint32_t (*triangles)[3];
+    uint32_t vertex_count, triangle_count;
+    double
+        *area_below; // mesh with a light: area of triangles 0..i, summed in double; else NULL
+} pm_shape;
+
+typedef enum {
+    PM_LIGHT_POINT,
+    PM_LIGHT_AREA,        // on a shape, from the side of its normal, Lambertian
+    PM_LIGHT_DIRECTIONAL, // parallel, from outside the scene
+} pm_light_type;
+
+typedef struct {
+    pm_light_type type;
+    const char *id; // as in the file, or TYPE@LINE
+    int line;
+    int shape;           // area: index of its shape; else PM_NONE
+    int medium;          // that it stands in, or PM_NONE
+    pm_vec3 position;    // point
+    pm_vec3 direction;   // directional: unit, the way the light travels
+    pm_spectrum emitted; // point: intensity [W/sr]; area: radiance [W/(m^2 sr)];
+                         // directional: irradiance [W/m^2] on a plane facing it
+    pm_spectrum flux;    // [W] all in all; directional: through the scene's bounding disc
+} pm_light;
+
+/// A pinhole camera. Pixel (0, 0) is the top left one; a film point (u, v) in [0,1]^2, v down,
+/// looks along forward + right (2u - 1) tan_x + up (1 - 2v) tan_y.
+typedef struct {
+    pm_vec3 position;
+    pm_vec3 right, up, forward; // unit
+    double tan_x, tan_y;        // of half the field of view
+    int width, height;          // pixels
+    int medium;                 // that it stands in, or PM_NONE
+} pm_camera;
+
+/// Homogeneous medium. The reader refuses media for now; signatures carry them already.
+typedef struct {
+    const char *id;
+    double sigma_t; // extinction [1/m]
+    pm_spectrum albedo;
+    double g; // Henyey-Greenstein mean cosine; 0 isotropic
+} pm_medium;
+
+typedef struct pm_scene {
+    const char *path; // of the file, for messages
+    pm_material *materials;
+    pm_shape *shapes;
+    pm_light *lights;
+    pm_medium *media;
+    int material_count, shape_count, light_count, medium_count;
+    bool has_camera;
+    pm_camera camera;
+    pm_vec3 center;    // added to a centred point gives the file's coordinates
+    pm_vec3 low, high; // bounds of all shapes and point lights, centred; the camera is left out
+    double radius;     // of the bounding sphere about the centred origin, > 0
+    uint64_t hash;     // of everything above that light depends on
+    char **notes;      // lines about what was accepted but is not used
+    int note_count;
+    void *storage; // where every pointer above lives; scene_read owns the kind
+} pm_scene;
+
+#endif
