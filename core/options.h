@@ -1,0 +1,118 @@
+// The one place that parses command lines, for every program. A program names the options it
+// takes; everything else is refused with one line per fault that names the nearest option it
+// does take. Nothing is clamped: a value is either in its stated range or an error.
+#ifndef PM_OPTIONS_H
+#define PM_OPTIONS_H
+
+#include "estimate.h"
+#include "layer.h"
+#include "photon.h"
+#include "scene_read.h"
+#include "status.h"
+#include "trace.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#define PM_OPTIONS_REPEAT_MAX 64 // times that -D or --map may be given
+
+/// What a command line said, with the defaults where it said nothing. Texts point into argv.
+typedef struct {
+    const char *const *positional; // SCENE, or what the program's usage names
+    int positional_count;
+
+    // photons
+    uint64_t photons[PM_MAP_COUNT]; // to emit for each map; 0: this map is off by choice
+    uint64_t photons_total;         // --photons: to be split by the plan; 0: not given
+    uint64_t stored; // from a preset: emit until each map holds so many; 0: emit `photons`
+    pm_roulette_rule roulette;
+    uint32_t max_bounces; // 0: the rule of the design
+    bool unpacked;        // --packing off
+
+    // estimate
+    pm_estimate_settings estimate; // -k -r --shape --filter --kernel-constants --flatness
+    bool k_given;                  // -k was on the command line or in a preset
+
+    // picture
+    uint32_t gather; // directions of a final gather; 0: global map seen directly
+    uint32_t spp;
+    bool direct_by_photons;  // --direct photons
+    bool caustics_by_global; // --caustics global
+    bool view_photons;       // --view photons
+    int width, height;       // --size; 0: the scene's
+    int only;                // a pm_layer; -1: all
+    const char *preset;      // NULL: none
+    bool explain;            // say the plan and stop
+    bool check_scene;        // render --check: validate the scene and stop
+    double exposure;         // stops, of --png
+
+    // places
+    bool has_at, has_normal;
+    pm_vec3 at;          // the scene file's coordinates: subtract its centre
+    pm_vec3 normal;      // unit
+    const char *points;  // file of points
+    const char *on;      // id of a rectangle that is covered by a grid of points
+    int grid_w, grid_h;  // --grid; 0: not given
+    uint32_t runs;       // independent maps
+    bool has_photon;     // --photon was given
+    uint64_t photon;     // replay this one
+    const char *channel; // of a picture, for view
+
+    // files in and out
+    const char *output; // -o
+    const char *report;
+    const char *png;
+    const char *dump;
+    const char *check_file; // storage --check FILE
+    const char *map[PM_OPTIONS_REPEAT_MAX];
+    int map_count;
+    const char *difference; // compare --map FILE.png
+    const char *title;
+
+    // compare
+    bool no_mask, same;
+    bool has_max_rel_mse;
+    double max_rel_mse;
+
+    // every program
+    uint32_t seed;
+    int threads; // 0: all
+    bool json;
+    bool help;
+    pm_define define[PM_OPTIONS_REPEAT_MAX];
+    int define_count;
+    char define_text[4096]; // the names and values of `define`
+} pm_options;
+
+/// What a program takes. `options` and `needs` list keys separated by blanks: the option's name
+/// without dashes ("n k r shape at"), except "check-file" for `--check FILE` and "difference"
+/// for compare's `--map`. help, seed, threads, json and D are always taken.
+typedef struct {
+    const char *name;
+    const char *does;       // one sentence for --help
+    const char *positional; // as the usage line shows it: "SCENE", "A.exr B.exr"
+    int positional_least;   // not asked for when --check FILE is given
+    int positional_most;
+    const char *options;
+    const char *needs; // those of `options` that must be given; NULL: none
+    const char *notes; // more lines for the end of --help; NULL: none
+} pm_options_program;
+
+/// The defaults of the design, before any command line.
+pm_options pm_options_defaults(void);
+
+/// Parses a command line; argv is reordered so that positionals come last.
+///
+/// With --help, whatever else is wrong, the answer is PM_OK with `help` set.
+///
+/// @param options  [out] untouched unless PM_OK; valid while argv is. It points into itself
+///                 (define), so it is not to be copied
+/// @return PM_EINPUT with one line per fault: `render: --gather must be ..., got "x"`
+pm_status pm_options_parse(int argc, char **argv, const pm_options_program *program,
+                           pm_options *options);
+
+/// Prints the usage: every option with its unit and default.
+void pm_options_help(const pm_options_program *program, FILE *stream);
+
+#endif
