@@ -30,7 +30,7 @@ typedef struct {
 
 /// Emits, traces, stores and scales the map of `kind` (global or caustic).
 ///
-/// @param map     [in, out] zeroed with kind and packing unset; filled, trimmed and scaled
+/// @param map     [out] trimmed and scaled; untouched unless PM_OK
 /// @param report  [out] may be NULL
 /// @return what a stage returned; PM_ELIMIT with a line when `stored` is not reached after
 /// `count`;
@@ -38,6 +38,11 @@ typedef struct {
 pm_status pm_photon_pass(const pm_intersector *world, pm_map_kind kind,
                          const pm_pass_settings *settings, pm_photon_map *map,
                          pm_pass_report *report);
+
+/// The caps in force: `asked` for both if it is not 0; else no cap on events unless a diffuse
+/// albedo exceeds 0.9999 (then 10,000), and 1,000 specular events in a row.
+void pm_photon_pass_caps(const pm_scene *scene, uint32_t asked, uint32_t *max_bounces,
+                         uint32_t *max_specular);
 
 void pm_pass_report_free(pm_pass_report *report);
 

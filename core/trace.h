@@ -40,7 +40,8 @@ typedef struct {
     pm_vec3 from, position; // the photon flew from .. to .. (escaped: position is `from`)
     pm_vec3 direction;      // that it travelled in, unit
     pm_spectrum arriving;   // power before
-    pm_spectrum carried;    // power after roulette, before the sampled direction's own weight
+    pm_spectrum chosen;     // power after roulette, before the sampled direction's own weight
+    pm_spectrum carried;    // power that goes on; 0 when the photon ended here
 } pm_event;
 
 /// Where tracing hands over what it finds. `event` may be NULL.

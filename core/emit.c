@@ -1,0 +1,208 @@
+// Every light's photons carry the light's flux over its share of the pass, so the power handed
+// out is exact for any number of photons; the lights are interleaved so that a pass may stop
+// anywhere.
+#include "emit.h"
+
+#include "shape.h"
+
+#include <stddef.h>
+
+static double light_power(const pm_light *light)
+{
+    return pm_spectrum_mean(light->flux);
+}
+
+/// Rounds every share down, but no powered light below one photon. Returns the photons given.
+static uint64_t share_rounded_down(const pm_scene *scene, uint64_t count, double total,
+                                   uint64_t *share)
+{
+    uint64_t given = 0;
+    for (int i = 0; i < scene->light_count; i++) {
+        double power = light_power(&scene->lights[i]);
+        share[i] = (uint64_t)((double)count * (power / total));
+        if (share[i] == 0 && power > 0.0) {
+            share[i] = 1;
+        }
+        given += share[i];
+    }
+    return given;
+}
+
+/// The light whose photons carry the most power (`most` true) or the least, among those that
+/// can gain or lose one.
+static int light_out_of_step(const pm_scene *scene, const uint64_t *share, bool most)
+{
+    int found = PM_NONE;
+    double extreme = 0.0;
+    for (int i = 0; i < scene->light_count; i++) {
+        if (share[i] == 0 || (!most && share[i] == 1)) {
+            continue;
+        }
+        double each = light_power(&scene->lights[i]) / (double)share[i];
+        if (found == PM_NONE || (most ? each > extreme : each < extreme)) {
+            found = i;
+            extreme = each;
+        }
+    }
+    return found;
+}
+
+pm_status pm_emit_share(const pm_scene *scene, uint64_t count, uint64_t *share)
+{
+    double total = 0.0;
+    uint64_t powered = 0;
+    for (int i = 0; i < scene->light_count; i++) {
+        total += light_power(&scene->lights[i]);
+        powered += light_power(&scene->lights[i]) > 0.0;
+    }
+    if (powered == 0) {
+        return pm_status_fail(PM_EINPUT, "%s: no light has any power; no photon can be emitted",
+                              scene->path);
+    }
+    if (count < powered || count > PM_EMIT_MAX) {
+        return pm_status_fail(
+            PM_EINPUT,
+            "%s: a pass emits between %llu (one photon a light) and %u photons,"
+            " got %llu",
+            scene->path, (unsigned long long)powered, PM_EMIT_MAX, (unsigned long long)count);
+    }
+    uint64_t given = share_rounded_down(scene, count, total, share);
+    for (; given < count; given++) {
+        share[light_out_of_step(scene, share, true)]++;
+    }
+    for (; given > count; given--) {
+        share[light_out_of_step(scene, share, false)]--;
+    }
+    return PM_OK;
+}
+
+pm_status pm_emit_cell(const pm_projection *projection, pm_rng *rng, double u[2])
+{
+    if (projection == NULL || projection->lit_count == 0) {
+        u[0] = pm_rng_draw(rng);
+        u[1] = pm_rng_draw(rng);
+        return PM_OK;
+    }
+    double pick = pm_rng_draw(rng) * projection->lit_count;
+    uint32_t cell = projection->lit[(uint32_t)pick];
+    double row = cell / projection->columns;
+    double column = cell % projection->columns;
+    double across = pm_rng_draw(rng);
+    double along = pm_rng_draw(rng);
+    u[0] = (row + across) / projection->rows;
+    u[1] = (column + along) / projection->columns;
+    return PM_OK;
+}
+
+static pm_vec3 sphere_direction(const double u[2])
+{
+    double z = 1.0 - 2.0 * u[0];
+    double radius = sqrt(fmax(0.0, 1.0 - z * z));
+    double phi = 2.0 * PM_PI * u[1];
+    return pm_vec(radius * cos(phi), radius * sin(phi), z);
+}
+
+static pm_status emit_point(const pm_light *light, const pm_projection *projection, pm_rng *rng,
+                            pm_ray *ray)
+{
+    double u[2];
+    PM_TRY(pm_emit_cell(projection, rng, u));
+    ray->origin = light->position;
+    ray->direction = sphere_direction(u);
+    return PM_OK;
+}
+
+static pm_status emit_area(const pm_shape *shape, const pm_projection *projection, pm_rng *rng,
+                           pm_ray *ray)
+{
+    double u[2];
+    PM_TRY(pm_emit_cell(projection, rng, u));
+    double across = pm_rng_draw(rng);
+    double along = pm_rng_draw(rng);
+    pm_hit start = {0};
+    pm_shape_point(shape, across, along, &start);
+
+    // Cosine about the normal: the unit disc, lifted onto the hemisphere.
+    double radius = sqrt(u[0]);
+    double phi = 2.0 * PM_PI * u[1];
+    pm_frame frame = pm_frame_around(start.normal);
+    pm_vec3 local = pm_vec(radius * cos(phi), radius * sin(phi), sqrt(1.0 - u[0]));
+    ray->direction = pm_frame_to_world(&frame, local);
+    ray->origin = pm_hit_leave(&start, ray->direction);
+    return PM_OK;
+}
+
+static pm_status emit_directional(const pm_scene *scene, const pm_light *light,
+                                  const pm_projection *projection, pm_rng *rng, pm_ray *ray)
+{
+    double u[2];
+    PM_TRY(pm_emit_cell(projection, rng, u));
+    double radius = scene->radius * sqrt(u[0]);
+    double phi = 2.0 * PM_PI * u[1];
+    pm_frame frame = pm_frame_around(light->direction);
+    // Two radii back: whatever touches the bounding sphere is still ahead.
+    ray->origin = pm_frame_to_world(
+        &frame, pm_vec(radius * cos(phi), radius * sin(phi), -2.0 * scene->radius));
+    ray->direction = light->direction;
+    return PM_OK;
+}
+
+pm_status pm_emit_ray(const pm_scene *scene, const pm_light *light,
+                      const pm_projection *projection, pm_rng *rng, pm_ray *ray)
+{
+    *ray = (pm_ray){.t_max = INFINITY, .medium = light->medium};
+    switch (light->type) {
+    case PM_LIGHT_POINT:
+        return emit_point(light, projection, rng, ray);
+    case PM_LIGHT_AREA:
+        return emit_area(&scene->shapes[light->shape], projection, rng, ray);
+    case PM_LIGHT_DIRECTIONAL:
+        return emit_directional(scene, light, projection, rng, ray);
+    }
+    return PM_FAIL(PM_EINPUT, "unknown light type %d", (int)light->type);
+}
+
+/// Which light sends photon `photon`. Of n photons with s for a light, the light sends those at
+/// which floor(j s / n) takes a step; the others are renumbered and asked the next light.
+static uint32_t light_of(const pm_emission *emission, uint64_t photon)
+{
+    uint64_t left = emission->count;
+    uint32_t last = (uint32_t)emission->scene->light_count - 1;
+    for (uint32_t i = 0; i < last; i++) {
+        uint64_t share = emission->share[i];
+        uint64_t before = photon * share / left;
+        if ((photon + 1) * share / left > before) {
+            return i;
+        }
+        photon -= before;
+        left -= share;
+    }
+    return last;
+}
+
+static double lit_fraction(const pm_projection *projection)
+{
+    if (projection == NULL || projection->lit_count == 0) {
+        return 1.0;
+    }
+    return projection->lit_count / ((double)projection->rows * projection->columns);
+}
+
+pm_status pm_emit_photons(const pm_emission *emission, uint64_t first, uint32_t count,
+                          pm_start *starts)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        pm_start *start = &starts[i];
+        start->photon = first + i;
+        start->light = light_of(emission, start->photon);
+        const pm_light *light = &emission->scene->lights[start->light];
+        const pm_projection *projection =
+            emission->projections == NULL ? NULL : &emission->projections[start->light];
+        pm_rng rng = pm_rng_at(&emission->source, start->photon, 0);
+        PM_TRY(pm_emit_ray(emission->scene, light, projection, &rng, &start->ray));
+
+        double share = (double)emission->count / (double)emission->share[start->light];
+        start->power = pm_spectrum_scale(light->flux, share * lit_fraction(projection));
+    }
+    return PM_OK;
+}

@@ -1,0 +1,300 @@
+// Chunks of CHUNK photons are traced on any thread and appended in order, so neither the map
+// nor the books depend on how many threads there are.
+#include "photon_pass.h"
+
+#include "interrupt.h"
+#include "photon_map.h"
+#include "store.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#define CHUNK 1024u
+#define DIFFUSE_CAP 10000u
+#define DIFFUSE_CAP_ABOVE 0.9999 // albedo from which on paths need a cap
+#define SPECULAR_CAP 1000u
+
+/// What all threads share.
+typedef struct {
+    const pm_pass_settings *settings;
+    pm_emission emission;
+    pm_tracing tracing; // without a sink
+    pm_photon_map *map;
+    pm_audit *audit;
+    uint64_t emitted;
+    bool done; // nothing more is wanted
+    pm_status status;
+    char message[1024];
+} pm_pass;
+
+/// What one thread works in.
+typedef struct {
+    const pm_pass_settings *settings;
+    pm_start starts[CHUNK];
+    pm_photon_map part;
+    pm_audit audit;
+} pm_pass_worker;
+
+static pm_status worker_deposit(void *context, const pm_deposit *deposit)
+{
+    pm_pass_worker *worker = context;
+    const pm_trace_sink *tap = &worker->settings->tap;
+    if (tap->deposit != NULL) {
+        PM_TRY(tap->deposit(tap->context, deposit));
+    }
+    return pm_store_push(&worker->part, deposit);
+}
+
+static void worker_event(void *context, const pm_start *start, const pm_event *event)
+{
+    pm_pass_worker *worker = context;
+    const pm_trace_sink *tap = &worker->settings->tap;
+    pm_audit_event(&worker->audit, start, event);
+    if (tap->event != NULL) {
+        tap->event(tap->context, start, event);
+    }
+}
+
+static pm_status trace_range(const pm_pass *pass, pm_pass_worker *worker, uint64_t first,
+                             uint32_t count)
+{
+    pm_tracing tracing = pass->tracing;
+    tracing.sink = (pm_trace_sink){worker, worker_deposit, worker_event};
+    worker->part.count = 0;
+    worker->part.refused = worker->part.clamped = worker->part.vanished = 0;
+    pm_audit_clear(&worker->audit);
+    PM_TRY(pm_emit_photons(&pass->emission, first, count, worker->starts));
+    pm_audit_emit(&worker->audit, worker->starts, count);
+    return pm_trace_photons(&tracing, worker->starts, count);
+}
+
+static pm_status append(pm_pass *pass, const pm_pass_worker *worker, uint32_t count)
+{
+    pm_audit_add(pass->audit, &worker->audit);
+    pass->emitted += count;
+    return pm_photon_map_append(pass->map, &worker->part);
+}
+
+/// The chunk in which the wanted number is reached, photon by photon.
+static pm_status append_singly(pm_pass *pass, pm_pass_worker *worker, uint64_t first,
+                               uint32_t count)
+{
+    for (uint32_t i = 0; i < count && !pass->done; i++) {
+        PM_TRY(trace_range(pass, worker, first + i, 1));
+        PM_TRY(append(pass, worker, 1));
+        pass->done = pass->map->count >= pass->settings->stored;
+    }
+    return PM_OK;
+}
+
+static pm_status append_in_order(pm_pass *pass, pm_pass_worker *worker, uint64_t first,
+                                 uint32_t count)
+{
+    uint64_t wanted = pass->settings->stored;
+    uint64_t would_be = (uint64_t)pass->map->count + worker->part.count;
+    if (wanted != 0 && would_be >= wanted) {
+        return append_singly(pass, worker, first, count);
+    }
+    return append(pass, worker, count);
+}
+
+static void fail(pm_pass *pass, pm_status status)
+{
+    pass->status = status;
+    pass->done = true;
+    strncpy(pass->message, pm_status_message(), sizeof pass->message - 1);
+}
+
+static void run_chunk(pm_pass *pass, pm_pass_worker *worker, uint64_t chunk)
+{
+    uint64_t first = chunk * CHUNK;
+    uint64_t left = pass->emission.count - first;
+    uint32_t count = left < CHUNK ? (uint32_t)left : CHUNK;
+    bool skip;
+#pragma omp atomic read
+    skip = pass->done;
+    pm_status status = PM_OK;
+    if (!skip) {
+        status = trace_range(pass, worker, first, count);
+    }
+#pragma omp ordered
+    {
+        if (pm_interrupted() && !pass->done) {
+            status = pm_status_fail(PM_ESTOPPED, "stopped by the user");
+        }
+        if (!pass->done && status == PM_OK) {
+            status = append_in_order(pass, worker, first, count);
+        }
+        if (!pass->done && status != PM_OK) {
+            fail(pass, status);
+        }
+    }
+}
+
+static pm_status worker_make(const pm_pass *pass, pm_pass_worker **out)
+{
+    pm_pass_worker *worker = calloc(1, sizeof *worker);
+    if (worker == NULL) {
+        return PM_FAIL(PM_ENOMEM, "no memory to trace in");
+    }
+    pm_status status = pm_audit_make(pass->audit->shape_count, &worker->audit);
+    if (status != PM_OK) {
+        free(worker);
+        return status;
+    }
+    worker->settings = pass->settings;
+    worker->part.kind = pass->map->kind;
+    worker->part.unpacked = pass->map->unpacked;
+    *out = worker;
+    return PM_OK;
+}
+
+static void worker_free(pm_pass_worker *worker)
+{
+    if (worker != NULL) {
+        pm_photon_map_free(&worker->part);
+        pm_audit_free(&worker->audit);
+        free(worker);
+    }
+}
+
+static void run_chunks(pm_pass *pass)
+{
+    int64_t chunks = (int64_t)((pass->emission.count + CHUNK - 1) / CHUNK);
+    bool tapped = pass->settings->tap.deposit != NULL || pass->settings->tap.event != NULL;
+#pragma omp parallel if (!tapped)
+    {
+        pm_pass_worker *worker = NULL;
+        pm_status made = worker_make(pass, &worker);
+        if (made != PM_OK) {
+#pragma omp critical
+            fail(pass, made);
+        }
+#pragma omp barrier
+#pragma omp for ordered schedule(dynamic, 1)
+        for (int64_t chunk = 0; chunk < chunks; chunk++) {
+            if (pass->status != PM_ENOMEM) {
+                run_chunk(pass, worker, (uint64_t)chunk);
+            }
+        }
+        worker_free(worker);
+    }
+}
+
+static bool needs_cap(const pm_scene *scene)
+{
+    for (int i = 0; i < scene->material_count; i++) {
+        const pm_material *material = &scene->materials[i];
+        if (material->type == PM_BSDF_DIFFUSE &&
+            pm_spectrum_max(material->reflectance) > DIFFUSE_CAP_ABOVE) {
+            return true;
+        }
+    }
+    return false;
+}
+
+void pm_photon_pass_caps(const pm_scene *scene, uint32_t asked, uint32_t *max_bounces,
+                         uint32_t *max_specular)
+{
+    *max_bounces = asked != 0 ? asked : needs_cap(scene) ? DIFFUSE_CAP : UINT32_MAX;
+    *max_specular = asked != 0 ? asked : SPECULAR_CAP;
+}
+
+static void prepare(pm_pass *pass, const pm_intersector *world, pm_map_kind kind)
+{
+    const pm_pass_settings *settings = pass->settings;
+    pm_rng_source source = {settings->seed, (pm_rng_stream)kind, settings->pass};
+    pass->emission.scene = world->scene;
+    pass->emission.source = source;
+    pass->emission.count = settings->count;
+    pass->emission.projections = settings->projections;
+    pass->tracing = (pm_tracing){
+        .world = world,
+        .source = source,
+        .rule = settings->rule,
+        .caustic_only = kind == PM_MAP_CAUSTIC,
+    };
+    pm_photon_pass_caps(world->scene, settings->max_bounces, &pass->tracing.max_bounces,
+                        &pass->tracing.max_specular);
+}
+
+static pm_status outcome(const pm_pass *pass)
+{
+    const pm_pass_settings *settings = pass->settings;
+    if (pass->status != PM_OK) {
+        pm_status_clear();
+        return pm_status_fail(pass->status, "%s", pass->message);
+    }
+    if (settings->stored != 0 && pass->map->count < settings->stored) {
+        return pm_status_fail(
+            PM_ELIMIT, "%s: %llu photons were to be stored, but %llu emitted ones gave only %u",
+            pass->emission.scene->path, (unsigned long long)settings->stored,
+            (unsigned long long)pass->emitted, pass->map->count);
+    }
+    return PM_OK;
+}
+
+static double seconds_now(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/// Runs the pass into `map` and `report`, both fresh.
+static pm_status run(const pm_intersector *world, pm_map_kind kind,
+                     const pm_pass_settings *settings, pm_photon_map *map,
+                     pm_pass_report *report)
+{
+    double start = seconds_now();
+    pm_pass pass = {.settings = settings, .map = map, .audit = &report->audit};
+    prepare(&pass, world, kind);
+    PM_TRY(pm_emit_share(world->scene, settings->count, report->share));
+    pass.emission.share = report->share;
+    run_chunks(&pass);
+    PM_TRY(outcome(&pass));
+    pm_photon_map_trim(map);
+    PM_TRY(pm_store_scale(map, pass.emitted));
+    pm_audit_scale(&report->audit, 1.0 / (double)pass.emitted);
+    report->emitted = pass.emitted;
+    report->deposits = (uint64_t)map->count + map->refused;
+    report->seconds = seconds_now() - start;
+    return PM_OK;
+}
+
+pm_status pm_photon_pass(const pm_intersector *world, pm_map_kind kind,
+                         const pm_pass_settings *settings, pm_photon_map *map,
+                         pm_pass_report *report)
+{
+    const pm_scene *scene = world->scene;
+    pm_pass_report fresh = {0};
+    fresh.share = calloc((size_t)scene->light_count, sizeof *fresh.share);
+    if (fresh.share == NULL) {
+        return PM_FAIL(PM_ENOMEM, "no memory for the shares of %d lights", scene->light_count);
+    }
+    pm_photon_map filled = {.kind = kind, .unpacked = settings->unpacked, .scale = 1.0};
+    pm_status status = pm_audit_make(scene->shape_count, &fresh.audit);
+    if (status == PM_OK) {
+        status = run(world, kind, settings, &filled, &fresh);
+    }
+    if (status != PM_OK || report == NULL) {
+        pm_pass_report_free(&fresh);
+    }
+    if (status != PM_OK) {
+        pm_photon_map_free(&filled);
+        return status;
+    }
+    *map = filled;
+    if (report != NULL) {
+        *report = fresh;
+    }
+    return PM_OK;
+}
+
+void pm_pass_report_free(pm_pass_report *report)
+{
+    free(report->share);
+    pm_audit_free(&report->audit);
+    *report = (pm_pass_report){0};
+}
