@@ -34,12 +34,13 @@ ifneq ($(SAN),)
 COMMON += -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 LINK := -fsanitize=address,undefined
 endif
-C_FLAGS := -std=c17 -D_POSIX_C_SOURCE=200809L $(WARN_C) $(COMMON) $(PART_CFLAGS)
+C_FLAGS := -std=c17 -D_XOPEN_SOURCE=700 $(WARN_C) $(COMMON) $(PART_CFLAGS)
 CXX_FLAGS := -std=c++17 $(WARN) $(COMMON) -isystem $(VTK_INCLUDE)
 LINK += -fopenmp
 
 CORE := $(patsubst %.c,$(BUILD)/%.o,$(wildcard core/*.c))
-TESTS := $(patsubst %.c,$(BUILD)/%.o,$(wildcard tests/*.c))
+RUNNER := $(patsubst %.c,$(BUILD)/%.o,$(wildcard tests/runner*.c))
+TESTS := $(patsubst %.c,$(BUILD)/%.o,$(wildcard tests/test_*.c))
 
 # --- programs -------------------------------------------------------------------------------------
 DRIVER_emission := labs/01_emission/driver
@@ -69,8 +70,11 @@ $(BUILD)/%.o: %.cc
 	@mkdir -p $(@D)
 	$(CXX) $(CXXFLAGS) $(CXX_FLAGS) -c -o $@ $<
 
-$(BUILD)/tests/run: $(TESTS) $(CORE)
-	$(CC) $(LINK) $(LDFLAGS) -o $@ $^ $(PART_LIBS) $(GSL_LIBS)
+# Programs are found beside the build by their full path, so a test may change its folder.
+$(RUNNER): PART_CFLAGS += -DPM_TEST_BIN='"$(abspath $(BIN))"'
+
+$(BUILD)/tests/run: $(RUNNER) $(TESTS) $(CORE)
+	$(CC) $(LINK) $(LDFLAGS) -o $@ $(sort $^) $(PART_LIBS) $(GSL_LIBS)
 
 test: $(BUILD)/tests/run $(PROGRAMS)
 	$(BUILD)/tests/run $(ONLY)
@@ -80,4 +84,4 @@ clean:
 
 .PHONY: all test clean
 .DELETE_ON_ERROR:
--include $(CORE:.o=.d) $(TESTS:.o=.d)
+-include $(CORE:.o=.d) $(TESTS:.o=.d) $(RUNNER:.o=.d)

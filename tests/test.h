@@ -37,6 +37,9 @@ __attribute__((noreturn))
 #endif
 void pm_test_skip(const char *reason, const char *package);
 
+/// At the start of a test that may need longer than 60 s: its own limit, in seconds.
+void pm_test_limit(double seconds);
+
 void pm_test_near(const char *file, int line, const char *what, double got, double want,
                   double tolerance);
 void pm_test_status(const char *file, int line, const char *what, pm_status got, pm_status want,
