@@ -8,7 +8,14 @@
 /// Room for at least `capacity` photons, keeping those there are. PM_ELIMIT above PM_MAP_MAX.
 pm_status pm_photon_map_reserve(pm_photon_map *map, uint64_t capacity);
 
-/// Appends all photons and counters of `part` (same packing) to `map`.
+/// The capacity to reserve for `needed` photons: a quarter more than now at least, so that a
+/// map that grows photon by photon is copied a bounded number of times and is never more than a
+/// quarter empty. Above PM_MAP_MAX only when `needed` is.
+uint64_t pm_photon_map_growth(const pm_photon_map *map, uint64_t needed);
+
+/// Appends all photons and counters of `part` to `map`.
+/// @return PM_EINPUT when the maps differ in kind or packing, or one of them is scaled;
+///         PM_ELIMIT, PM_ENOMEM; `map` is unchanged then
 pm_status pm_photon_map_append(pm_photon_map *map, const pm_photon_map *part);
 
 /// Gives back the room beyond `count`.
@@ -23,8 +30,8 @@ void pm_photon_map_free(pm_photon_map *map);
 /// Total power of the map [W], summed in index order in double.
 pm_spectrum pm_photon_map_power(const pm_photon_map *map);
 
-/// A unit normal in 12 bits (octahedral, 6 + 6; axes are exact, others to 3 degrees) and back.
-/// Code 4095 stands for no normal and decodes to the zero vector.
+/// A unit normal in 12 bits (octahedral, 6 + 6; axes are exact, others to 2.7 degrees) and
+/// back. Code 4095 stands for no normal, the zero vector.
 uint16_t pm_normal_encode(pm_vec3 normal);
 pm_vec3 pm_normal_decode(uint16_t code);
 

@@ -1,0 +1,408 @@
+// The kd-tree in two steps, both in place. First the photons are put in the tree's in-order
+// (left subtree, node, right subtree, and so on inside), by selecting each node's median. Then
+// one permutation takes the in-order to the heap order, whose links are arithmetic.
+//
+// Invariant while partitioning: photons before a node's place are not beyond it on its axis,
+// those after it not before it. Equal coordinates may lie on both sides.
+// @source Jensen 2001, ch. 6; Bentley, "Multidimensional binary search trees", CACM 18(9), 1975
+#include "balance.h"
+
+#include <stddef.h>
+
+#define UNPLACED 3u // in the axis bits: not yet in heap order
+
+// Selection falls back to guaranteed pivots after looking at this many photons per photon.
+#define PATIENCE 12
+
+typedef struct {
+    float low[3], high[3];
+} box;
+
+/// A run of photons in lockstep with what packing rounded away.
+typedef struct {
+    pm_photon *photons;
+    pm_photon_exact *exact; // or NULL
+} records;
+
+static void swap(const records *r, uint32_t a, uint32_t b)
+{
+    pm_photon photon = r->photons[a];
+    r->photons[a] = r->photons[b];
+    r->photons[b] = photon;
+    if (r->exact != NULL) {
+        pm_photon_exact exact = r->exact[a];
+        r->exact[a] = r->exact[b];
+        r->exact[b] = exact;
+    }
+}
+
+static float coordinate(const records *r, uint32_t index, int axis)
+{
+    return r->photons[index].position[axis];
+}
+
+// --- selection -------------------------------------------------------------------------------
+
+/// Which of three indices has the middle coordinate.
+static uint32_t median_of_3(const records *r, uint32_t a, uint32_t b, uint32_t c, int axis)
+{
+    float x = coordinate(r, a, axis);
+    float y = coordinate(r, b, axis);
+    float z = coordinate(r, c, axis);
+    if (x < y) {
+        return y < z ? b : x < z ? c : a;
+    }
+    return x < z ? a : y < z ? c : b;
+}
+
+/// A guess at the median of low .. high: the middle of three middles, spread evenly.
+static uint32_t ninther(const records *r, uint32_t low, uint32_t high, int axis)
+{
+    uint32_t step = (high - low) / 8;
+    uint32_t middle = low + (high - low) / 2;
+    if (step == 0) {
+        return median_of_3(r, low, middle, high, axis);
+    }
+    uint32_t a = median_of_3(r, low, low + step, low + 2 * step, axis);
+    uint32_t b = median_of_3(r, middle - step, middle, middle + step, axis);
+    uint32_t c = median_of_3(r, high - 2 * step, high - step, high, axis);
+    return median_of_3(r, a, b, c, axis);
+}
+
+/// Splits low .. high by `pivot`; afterwards low .. *left are not above it, *right .. high not
+/// below, and what lies between equals it. Stopping at equal coordinates halves a run of them.
+static void partition(const records *r, uint32_t low, uint32_t high, float pivot, int axis,
+                      uint32_t *left, uint32_t *right)
+{
+    int64_t i = low;
+    int64_t j = high;
+    while (i <= j) {
+        while (coordinate(r, (uint32_t)i, axis) < pivot) {
+            i++;
+        }
+        while (coordinate(r, (uint32_t)j, axis) > pivot) {
+            j--;
+        }
+        if (i <= j) {
+            swap(r, (uint32_t)i, (uint32_t)j);
+            i++;
+            j--;
+        }
+    }
+    *left = (uint32_t)(j < 0 ? 0 : j);
+    *right = (uint32_t)i;
+}
+
+static void insertion_sort(const records *r, uint32_t low, uint32_t high, int axis)
+{
+    for (uint32_t i = low + 1; i <= high; i++) {
+        for (uint32_t j = i; j > low && coordinate(r, j, axis) < coordinate(r, j - 1, axis);
+             j--) {
+            swap(r, j, j - 1);
+        }
+    }
+}
+
+static void select_place(const records *r, uint32_t low, uint32_t high, uint32_t place,
+                         int axis);
+
+/// A pivot that leaves at least three tenths on either side: the median of the medians of five.
+/// @source Blum et al., "Time bounds for selection", JCSS 7(4), 1973
+static uint32_t median_of_medians(const records *r, uint32_t low, uint32_t high, int axis)
+{
+    uint32_t groups = (high - low + 1) / 5;
+    for (uint32_t g = 0; g < groups; g++) {
+        uint32_t first = low + 5 * g;
+        insertion_sort(r, first, first + 4, axis);
+        swap(r, low + g, first + 2);
+    }
+    uint32_t middle = low + groups / 2;
+    select_place(r, low, low + groups - 1, middle, axis);
+    return middle;
+}
+
+/// Puts the photon of rank `place` among low .. high there, the smaller before it.
+static void select_place(const records *r, uint32_t low, uint32_t high, uint32_t place,
+                         int axis)
+{
+    uint64_t patience = (uint64_t)PATIENCE * (high - low + 1);
+    while (high - low >= 8) {
+        uint64_t size = (uint64_t)high - low + 1;
+        bool patient = patience >= size;
+        patience -= patient ? size : 0;
+        uint32_t guess =
+            patient ? ninther(r, low, high, axis) : median_of_medians(r, low, high, axis);
+        uint32_t left;
+        uint32_t right;
+        partition(r, low, high, coordinate(r, guess, axis), axis, &left, &right);
+        if (place > left && place < right) {
+            return;
+        }
+        high = place <= left ? left : high;
+        low = place >= right ? right : low;
+    }
+    insertion_sort(r, low, high, axis);
+}
+
+// --- building --------------------------------------------------------------------------------
+
+uint32_t pm_balance_left(uint32_t count)
+{
+    uint32_t row = 1; // photons in the last row, were it full
+    while (row <= count / 2) {
+        row *= 2;
+    }
+    if (row == 1) {
+        return 0;
+    }
+    uint32_t last = count - (row - 1);
+    uint32_t half = row / 2;
+    return half - 1 + (last < half ? last : half);
+}
+
+static int longest_side(const box *around)
+{
+    double side[3];
+    for (int axis = 0; axis < 3; axis++) {
+        side[axis] = (double)around->high[axis] - (double)around->low[axis];
+    }
+    int yz = side[1] >= side[2] ? 1 : 2;
+    return side[0] >= side[yz] ? 0 : yz;
+}
+
+static pm_status bounds(const pm_photon_map *map, box *around)
+{
+    for (int axis = 0; axis < 3; axis++) {
+        float low = HUGE_VALF;
+        float high = -HUGE_VALF;
+        for (uint32_t i = 0; i < map->count; i++) {
+            float x = map->photons[i].position[axis];
+            if (!isfinite(x)) {
+                return PM_FAIL(PM_EINPUT, "photon %u lies at %g on axis %d: not finite", i,
+                               (double)x, axis);
+            }
+            low = x < low ? x : low;
+            high = x > high ? x : high;
+        }
+        around->low[axis] = low;
+        around->high[axis] = high;
+    }
+    return PM_OK;
+}
+
+static void arrange(const records *r, uint32_t first, uint32_t count, box around)
+{
+    while (count > 1) {
+        int axis = longest_side(&around);
+        uint32_t left = pm_balance_left(count);
+        uint32_t median = first + left;
+        select_place(r, first, first + count - 1, median, axis);
+        box lower = around;
+        lower.high[axis] = around.low[axis] = coordinate(r, median, axis);
+        arrange(r, first, left, lower);
+        first = median + 1;
+        count -= left + 1;
+    }
+}
+
+/// Which in-order place, from 0, the photon of heap node `node` (from 1) has in a tree of
+/// `count`. Were the last row full, its photons would have the even places.
+static uint32_t in_order_place(uint32_t node, uint32_t count, int last_depth)
+{
+    int depth = 31 - __builtin_clz(node);
+    uint64_t offset = node - (UINT64_C(1) << depth);
+    uint64_t place = ((2 * offset + 1) << (last_depth - depth)) - 1;
+    uint64_t last = count - ((UINT64_C(1) << last_depth) - 1);
+    uint64_t before = (place + 1) / 2; // places of the last row before this one
+    return (uint32_t)(place - (before > last ? before - last : 0));
+}
+
+static void to_heap_order(const records *r, uint32_t count)
+{
+    int last_depth = 31 - __builtin_clz(count);
+    for (uint32_t i = 0; i < count; i++) {
+        r->photons[i].flags |= UNPLACED;
+    }
+    for (uint32_t start = 0; start < count; start++) {
+        if ((r->photons[start].flags & PM_PHOTON_AXIS) != UNPLACED) {
+            continue;
+        }
+        pm_photon photon = r->photons[start];
+        pm_photon_exact exact = {0};
+        if (r->exact != NULL) {
+            exact = r->exact[start];
+        }
+        uint32_t to = start;
+        for (;;) {
+            uint32_t from = in_order_place(to + 1, count, last_depth);
+            if (from == start) {
+                break;
+            }
+            r->photons[to] = r->photons[from];
+            r->photons[to].flags &= (uint16_t)~PM_PHOTON_AXIS;
+            if (r->exact != NULL) {
+                r->exact[to] = r->exact[from];
+            }
+            to = from;
+        }
+        r->photons[to] = photon;
+        r->photons[to].flags &= (uint16_t)~PM_PHOTON_AXIS;
+        if (r->exact != NULL) {
+            r->exact[to] = exact;
+        }
+    }
+}
+
+static void set_axes(const records *r, uint64_t node, uint32_t count, box around)
+{
+    while (node <= count) {
+        int axis = longest_side(&around);
+        pm_photon *photon = &r->photons[node - 1];
+        photon->flags |= (uint16_t)axis;
+        box lower = around;
+        lower.high[axis] = around.low[axis] = photon->position[axis];
+        set_axes(r, 2 * node, count, lower);
+        node = 2 * node + 1;
+    }
+}
+
+pm_status pm_balance_build(pm_photon_map *map)
+{
+    if (map->count > PM_MAP_MAX) {
+        return PM_FAIL(PM_ELIMIT, "a tree holds at most %u photons, got %u", PM_MAP_MAX,
+                       map->count);
+    }
+    box around;
+    PM_TRY(bounds(map, &around));
+    if (map->count > 0 && !map->balanced) {
+        records all = {map->photons, map->exact};
+        arrange(&all, 0, map->count, around);
+        to_heap_order(&all, map->count);
+        set_axes(&all, 1, map->count, around);
+    }
+    map->balanced = true;
+    return PM_OK;
+}
+
+// --- searching -------------------------------------------------------------------------------
+
+/// The candidates of one search: a plain list until k are held, then a max-heap.
+typedef struct {
+    pm_neighbour *nearest;
+    uint32_t k, found;
+    double limit; // squared distances below it are wanted
+} candidates;
+
+/// Restores the heap from `hole` down, where `item` is to go.
+static void sift_down(pm_neighbour *heap, uint32_t count, uint64_t hole, pm_neighbour item)
+{
+    uint64_t child = 2 * hole + 1;
+    while (child < count) {
+        if (child + 1 < count && heap[child + 1].distance2 > heap[child].distance2) {
+            child++;
+        }
+        if (heap[child].distance2 <= item.distance2) {
+            break;
+        }
+        heap[hole] = heap[child];
+        hole = child;
+        child = 2 * hole + 1;
+    }
+    heap[hole] = item;
+}
+
+static void take(candidates *held, pm_neighbour item)
+{
+    if (held->found == held->k) {
+        sift_down(held->nearest, held->k, 0, item);
+        held->limit = held->nearest[0].distance2;
+        return;
+    }
+    held->nearest[held->found++] = item;
+    if (held->found < held->k) {
+        return;
+    }
+    for (uint32_t i = held->k / 2; i > 0; i--) {
+        sift_down(held->nearest, held->k, i - 1, held->nearest[i - 1]);
+    }
+    held->limit = held->nearest[0].distance2;
+}
+
+static void consider(const pm_search *search, const pm_photon *photon, uint32_t index,
+                     candidates *held)
+{
+    double dx = (double)photon->position[0] - search->at.x;
+    double dy = (double)photon->position[1] - search->at.y;
+    double dz = (double)photon->position[2] - search->at.z;
+    double distance2 = dx * dx + dy * dy + dz * dz;
+    if (!(distance2 < held->limit)) {
+        return;
+    }
+    if (search->accept != NULL && !search->accept(search->context, photon, &distance2)) {
+        return;
+    }
+    if (distance2 < held->limit) {
+        take(held, (pm_neighbour){distance2, index});
+    }
+}
+
+static pm_status check_search(const pm_photon_map *map, const pm_search *search)
+{
+    if (!map->balanced && map->count > 0) {
+        return PM_FAIL(PM_EINPUT, "%s", "the map must be balanced before it is searched");
+    }
+    if (search->k == 0) {
+        return PM_FAIL(PM_EINPUT, "%s", "k must be at least 1, got 0");
+    }
+    if (!(search->radius2 > 0.0)) {
+        return PM_FAIL(PM_EINPUT, "the squared reach must be > 0, got %g", search->radius2);
+    }
+    if (!isfinite(search->at.x) || !isfinite(search->at.y) || !isfinite(search->at.z)) {
+        return PM_FAIL(PM_EINPUT, "a search needs a finite position, got %g %g %g",
+                       search->at.x, search->at.y, search->at.z);
+    }
+    return PM_OK;
+}
+
+/// A subtree put off, and the squared distance to the plane it lies beyond.
+typedef struct {
+    uint64_t node;
+    double plane2;
+} pending;
+
+pm_status pm_balance_nearest(const pm_photon_map *map, const pm_search *search,
+                             pm_neighbour *nearest, uint32_t *found, uint64_t *visited)
+{
+    PM_TRY(check_search(map, search));
+    // Not below the reach but at most at it: one step further, for a strict comparison.
+    candidates held = {nearest, search->k, 0, nextafter(search->radius2, HUGE_VAL)};
+    pending later[32]; // a tree of 2^31 - 1 photons is 31 high
+    int waiting = 0;
+    uint64_t looked_at = 0;
+    uint64_t node = 1;
+    for (;;) {
+        while (node <= map->count) {
+            const pm_photon *photon = &map->photons[node - 1];
+            looked_at++;
+            consider(search, photon, (uint32_t)(node - 1), &held);
+            int axis = photon->flags & PM_PHOTON_AXIS;
+            double beyond = pm_vec_axis(search->at, axis) - (double)photon->position[axis];
+            uint64_t near = 2 * node + (beyond > 0.0 ? 1 : 0);
+            later[waiting] = (pending){near ^ 1, beyond * beyond};
+            waiting += (near ^ 1) <= map->count ? 1 : 0;
+            node = near;
+        }
+        do {
+            waiting--;
+        } while (waiting >= 0 && !(later[waiting].plane2 < held.limit));
+        if (waiting < 0) {
+            break;
+        }
+        node = later[waiting].node;
+    }
+    *found = held.found;
+    if (visited != NULL) {
+        *visited += looked_at;
+    }
+    return PM_OK;
+}

@@ -1,0 +1,251 @@
+// Density estimation: powers of the nearest photons, weighed, over the area that they fill.
+//
+// Invariant: which photons count and what area they stand for are decided once (reach_of), the
+// same for irradiance, radiance and the volume estimate. The photon that sets the radius is the
+// one left out, whatever the kernel gives it.
+// @source Jensen 2001, ch. 7; Garcia et al., CGF 31(1), 2012, for the (k-1) form
+#include "estimate.h"
+
+#include "photon_map.h"
+#include "store.h"
+
+#include <stddef.h>
+
+// A photon's coarse normal is up to 2.7 degrees off. Walls that meet at a right angle must not
+// lose each other's photons by that, so the side test lets -sin(2.9 degrees) pass; the far side
+// of a wall is at -1.
+#define SIDE_SLACK (-0.05)
+
+#define LEFT_OUT_NONE UINT32_MAX
+
+/// What a search's result amounts to.
+typedef struct {
+    uint32_t found;
+    uint32_t left_out; // place in the list of the photon that only sets the radius
+    double radius2;    // squared, > 0 when a photon counts
+    bool floored;
+} extent;
+
+pm_estimate_settings pm_estimate_defaults(void)
+{
+    return (pm_estimate_settings){
+        .k = 100,
+        .radius = HUGE_VAL,
+        .shape = PM_GATHER_DISC,
+        .flatness = 0.1,
+        .filter = PM_FILTER_NONE,
+        .constants = PM_CONSTANTS_UNBIASED,
+    };
+}
+
+static pm_status check(const pm_photon_map *map, const pm_estimate_settings *settings)
+{
+    if (!map->scaled && map->count > 0) {
+        return PM_FAIL(PM_EINPUT, "%s", "the photon map must be scaled before it is asked");
+    }
+    if (!(settings->radius > 0.0)) {
+        return PM_FAIL(PM_EINPUT, "radius must be > 0, got %g", settings->radius);
+    }
+    if (!(settings->flatness > 0.0 && settings->flatness <= 1.0)) {
+        return PM_FAIL(PM_EINPUT, "flatness must lie in (0, 1], got %g", settings->flatness);
+    }
+    return PM_OK;
+}
+
+// --- which photons count
+// -----------------------------------------------------------------------
+
+static bool faces(const pm_photon *photon, pm_vec3 normal)
+{
+    pm_vec3 its = pm_normal_decode(photon->flags >> PM_PHOTON_NORMAL_SHIFT);
+    return pm_vec_dot(its, normal) >= SIDE_SLACK; // without a normal (zero) everything passes
+}
+
+bool pm_estimate_accept(const void *context, const pm_photon *photon, double *distance2)
+{
+    const pm_estimate_query *query = context;
+    pm_vec3 normal = query->point.normal;
+    if ((photon->flags & query->skip) != 0 || !faces(photon, normal)) {
+        return false;
+    }
+    pm_vec3 away = pm_vec((double)photon->position[0] - query->point.at.x,
+                          (double)photon->position[1] - query->point.at.y,
+                          (double)photon->position[2] - query->point.at.z);
+    *distance2 = pm_vec_dot(away, away);
+    if (query->shape == PM_GATHER_DISC) {
+        double height = pm_vec_dot(away, normal);
+        double stretch = 1.0 / (query->flatness * query->flatness) - 1.0;
+        *distance2 += stretch * height * height; // in-plane^2 + height^2 / flatness^2
+    }
+    return true;
+}
+
+// --- how large an area they stand for
+// ------------------------------------------------------------
+
+/// The smallest radius that float positions around `at` can tell from 0.
+static double least_radius(pm_vec3 at)
+{
+    float reach = (float)pm_vec_reach(at);
+    return (double)nextafterf(reach, INFINITY) - (double)reach;
+}
+
+static uint32_t farthest(const pm_neighbour *nearest, uint32_t found)
+{
+    uint32_t last = 0;
+    for (uint32_t i = 1; i < found; i++) {
+        last = nearest[i].distance2 > nearest[last].distance2 ? i : last;
+    }
+    return last;
+}
+
+/// The rule of the header: k found, or no reach: the farthest photon sets the radius and is
+/// left out (the lecture keeps it); fewer in a finite reach: all count, over the area of the
+/// reach.
+static extent extent_of(const pm_estimate_settings *settings, pm_vec3 at,
+                        const pm_neighbour *nearest, uint32_t found)
+{
+    extent result = {found, LEFT_OUT_NONE, settings->radius * settings->radius, false};
+    if (found == 0 || (found < settings->k && isfinite(settings->radius))) {
+        return result;
+    }
+    uint32_t last = farthest(nearest, found);
+    double least = least_radius(at);
+    result.left_out = settings->plain_k ? LEFT_OUT_NONE : last;
+    result.floored = nearest[last].distance2 < least * least;
+    result.radius2 = result.floored ? least * least : nearest[last].distance2;
+    return result;
+}
+
+static pm_status search(const pm_photon_map *map, const pm_estimate_settings *settings,
+                        pm_search what, pm_neighbour *nearest, extent *result)
+{
+    uint32_t found;
+    what.k = settings->k;
+    what.radius2 = settings->radius * settings->radius;
+    PM_TRY(pm_balance_nearest(map, &what, nearest, &found, NULL));
+    *result = extent_of(settings, what.at, nearest, found);
+    return PM_OK;
+}
+
+// --- sums ------------------------------------------------------------------------------------
+
+/// A photon's share by direction: bsdf, phase function, or 1.
+typedef pm_spectrum (*response_fn)(const void *context, const pm_photon_view *photon);
+
+/// Sums response * weight * power over the photons that count.
+static pm_status sum_weighed(const pm_photon_map *map, const pm_estimate_settings *settings,
+                             const pm_neighbour *nearest, const extent *area,
+                             response_fn response, const void *context, pm_spectrum *sum)
+{
+    *sum = pm_gray(0.0);
+    for (uint32_t i = 0; i < area->found; i++) {
+        if (i == area->left_out) {
+            continue;
+        }
+        double weight;
+        PM_TRY(pm_filter_weight(settings->filter, settings->constants,
+                                fmin(nearest[i].distance2 / area->radius2, 1.0), &weight));
+        pm_photon_view photon = pm_store_unpack(map, nearest[i].index);
+        pm_spectrum part = pm_spectrum_scale(photon.power, weight);
+        if (response != NULL) {
+            part = pm_spectrum_mul(part, response(context, &photon));
+        }
+        *sum = pm_spectrum_add(*sum, part);
+    }
+    return PM_OK;
+}
+
+static pm_estimate make_estimate(const extent *area, pm_spectrum sum, double measure)
+{
+    bool none = area->found == 0;
+    return (pm_estimate){
+        .value = none ? pm_gray(0.0) : pm_spectrum_scale(sum, 1.0 / measure),
+        .radius = none ? 0.0 : sqrt(area->radius2),
+        .found = area->found,
+        .floored = area->floored,
+    };
+}
+
+static pm_status estimate_surface(const pm_photon_map *map,
+                                  const pm_estimate_settings *settings,
+                                  const pm_estimate_point *point, response_fn response,
+                                  const void *context, pm_neighbour *scratch, pm_estimate *out)
+{
+    PM_TRY(check(map, settings));
+    pm_estimate_query query = {*point, settings->shape, settings->flatness, settings->skip};
+    pm_search what = {.at = point->at, .accept = pm_estimate_accept, .context = &query};
+    extent area;
+    pm_spectrum sum;
+    double normalisation;
+    PM_TRY(pm_filter_normalisation(settings->filter, settings->constants, &normalisation));
+    PM_TRY(search(map, settings, what, scratch, &area));
+    PM_TRY(sum_weighed(map, settings, scratch, &area, response, context, &sum));
+    *out = make_estimate(&area, sum, normalisation * PM_PI * area.radius2);
+    return PM_OK;
+}
+
+pm_status pm_estimate_irradiance(const pm_photon_map *map, const pm_estimate_settings *settings,
+                                 const pm_estimate_point *point, pm_neighbour *scratch,
+                                 pm_estimate *out)
+{
+    return estimate_surface(map, settings, point, NULL, NULL, scratch, out);
+}
+
+/// The bsdf for a photon that came along its direction. The photon passed the side test by its
+/// normal; where the coarse direction says otherwise near grazing, it is mirrored back above.
+static pm_spectrum reflected(const void *context, const pm_photon_view *photon)
+{
+    const pm_lobes *lobes = context;
+    pm_vec3 from = pm_vec_negate(photon->direction);
+    double above = pm_vec_dot(from, lobes->normal);
+    if (above < 0.0) {
+        from = pm_vec_along(from, lobes->normal, -2.0 * above);
+    }
+    return pm_material_evaluate(lobes, from);
+}
+
+pm_status pm_estimate_radiance(const pm_photon_map *map, const pm_estimate_settings *settings,
+                               const pm_estimate_point *point, const pm_lobes *lobes,
+                               pm_neighbour *scratch, pm_estimate *out)
+{
+    return estimate_surface(map, settings, point, reflected, lobes, scratch, out);
+}
+
+// --- volume ----------------------------------------------------------------------------------
+
+typedef struct {
+    const pm_medium *medium;
+    pm_vec3 wo;
+} scattering;
+
+/// Albedo times the Henyey-Greenstein phase function [1/sr]; its mean cosine g is that between
+/// the ways before and after.
+static pm_spectrum scattered(const void *context, const pm_photon_view *photon)
+{
+    const scattering *to = context;
+    double g = to->medium->g;
+    double cosine = pm_vec_dot(photon->direction, to->wo);
+    double base = 1.0 + g * g - 2.0 * g * cosine;
+    double phase = (1.0 - g * g) / (4.0 * PM_PI * base * sqrt(base));
+    return pm_spectrum_scale(to->medium->albedo, phase);
+}
+
+pm_status pm_estimate_volume(const pm_photon_map *map, const pm_estimate_settings *settings,
+                             pm_vec3 at, const pm_medium *medium, pm_vec3 wo,
+                             pm_neighbour *scratch, pm_estimate *out)
+{
+    PM_TRY(check(map, settings));
+    pm_estimate_settings constant = *settings;
+    constant.filter = PM_FILTER_NONE; // kernels are made for discs
+    scattering to = {medium, wo};
+    pm_estimate_query query = {{.at = at}, PM_GATHER_SPHERE, 1.0, settings->skip};
+    pm_search what = {.at = at, .accept = pm_estimate_accept, .context = &query};
+    extent ball;
+    pm_spectrum sum;
+    PM_TRY(search(map, &constant, what, scratch, &ball));
+    PM_TRY(sum_weighed(map, &constant, scratch, &ball, medium != NULL ? scattered : NULL, &to,
+                       &sum));
+    *out = make_estimate(&ball, sum, 4.0 / 3.0 * PM_PI * ball.radius2 * sqrt(ball.radius2));
+    return PM_OK;
+}

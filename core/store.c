@@ -1,0 +1,246 @@
+// A photon in 20 bytes. Power: three mantissa bytes share one exponent byte; direction: one
+// byte for each of two angles.
+//
+// Invariant: decoding answers the middle of the interval that was cut off to one byte, so that
+// nothing drifts when many photons are added; only a byte of 0 stands for exactly 0, so that
+// pure colours stay pure.
+// @source Ward, "Real Pixels", Graphics Gems II, 1991; Jensen 2001, ch. 6
+#include "store.h"
+
+#include "photon_map.h"
+
+#include <stddef.h>
+
+#define BINS 256
+#define EXPONENT_BIAS 128
+#define EXPONENT_MAX 127    // stored as 255
+#define EXPONENT_MIN (-127) // stored as 1; 0 is kept for black
+
+// --- decoded directions, worked out by the compiler ----------------------------------------
+
+// Taylor polynomials, good to 1e-14 for |x| <= pi; arguments below are moved into that range.
+#define STEP(x, n, rest) (1.0 - (x) * (x) / ((n) * ((n) + 1.0)) * (rest))
+#define SIN_A(x) STEP(x, 2.0, STEP(x, 4.0, STEP(x, 6.0, STEP(x, 8.0, SIN_B(x)))))
+#define SIN_B(x) STEP(x, 10.0, STEP(x, 12.0, STEP(x, 14.0, STEP(x, 16.0, SIN_C(x)))))
+#define SIN_C(x) STEP(x, 18.0, STEP(x, 20.0, STEP(x, 22.0, STEP(x, 24.0, SIN_D(x)))))
+#define SIN_D(x) STEP(x, 26.0, STEP(x, 28.0, 1.0))
+#define COS_A(x) STEP(x, 1.0, STEP(x, 3.0, STEP(x, 5.0, STEP(x, 7.0, COS_B(x)))))
+#define COS_B(x) STEP(x, 9.0, STEP(x, 11.0, STEP(x, 13.0, STEP(x, 15.0, COS_C(x)))))
+#define COS_C(x) STEP(x, 17.0, STEP(x, 19.0, STEP(x, 21.0, STEP(x, 23.0, COS_D(x)))))
+#define COS_D(x) STEP(x, 25.0, STEP(x, 27.0, 1.0))
+#define SINE(x) ((x)*SIN_A(x))
+#define COSINE(x) COS_A(x)
+
+// The middles of bins i of theta, less pi / 2, and of phi, less pi.
+#define THETA(i) (((i) + 0.5) * (PM_PI / BINS) - PM_PI / 2.0)
+#define PHI(i) (((i) + 0.5) * (2.0 * PM_PI / BINS) - PM_PI)
+#define COS_SIN_THETA(i)                                                                       \
+    {                                                                                          \
+        -SINE(THETA(i)), COSINE(THETA(i))                                                      \
+    }
+#define COS_SIN_PHI(i)                                                                         \
+    {                                                                                          \
+        -COSINE(PHI(i)), -SINE(PHI(i))                                                         \
+    }
+
+#define FOUR(of, i) of(i), of((i) + 1), of((i) + 2), of((i) + 3)
+#define SIXTEEN(of, i) FOUR(of, i), FOUR(of, (i) + 4), FOUR(of, (i) + 8), FOUR(of, (i) + 12)
+#define SIXTY_FOUR(of, i)                                                                      \
+    SIXTEEN(of, i), SIXTEEN(of, (i) + 16), SIXTEEN(of, (i) + 32), SIXTEEN(of, (i) + 48)
+#define ALL(of) SIXTY_FOUR(of, 0), SIXTY_FOUR(of, 64), SIXTY_FOUR(of, 128), SIXTY_FOUR(of, 192)
+
+static const double theta_table[BINS][2] = {ALL(COS_SIN_THETA)};
+static const double phi_table[BINS][2] = {ALL(COS_SIN_PHI)};
+
+// --- power -----------------------------------------------------------------------------------
+
+static int pack_power(pm_spectrum power, uint8_t bytes[4])
+{
+    int exponent;
+    double largest = pm_spectrum_max(power);
+    (void)frexp(largest, &exponent);
+    bytes[0] = bytes[1] = bytes[2] = bytes[3] = 0;
+    if (largest == 0.0 || exponent < EXPONENT_MIN) {
+        return largest == 0.0 ? 0 : -1;
+    }
+    int fits = exponent > EXPONENT_MAX ? 1 : 0;
+    for (int c = 0; c < 3; c++) {
+        // Above the range the hue is kept and the largest channel put at the top.
+        double part = fits ? power.c[c] / largest * (BINS - 1)
+                           : ldexp(power.c[c], 8 - exponent); // exact: a power of two
+        bytes[c] = (uint8_t)part;
+    }
+    bytes[3] = (uint8_t)((fits ? EXPONENT_MAX : exponent) + EXPONENT_BIAS);
+    return fits;
+}
+
+static pm_spectrum unpack_power(const uint8_t bytes[4])
+{
+    pm_spectrum power = pm_gray(0.0);
+    double unit = ldexp(1.0, bytes[3] - EXPONENT_BIAS - 8);
+    for (int c = 0; c < 3; c++) {
+        power.c[c] = bytes[c] == 0 ? 0.0 : (bytes[c] + 0.5) * unit;
+    }
+    return power;
+}
+
+// --- direction -------------------------------------------------------------------------------
+
+/// The bin of `angle` in [0, range], the last one for its end.
+static uint8_t bin_of(double angle, double range)
+{
+    return (uint8_t)fmin(angle / range * BINS, BINS - 1);
+}
+
+static void pack_direction(pm_vec3 direction, uint8_t bytes[2])
+{
+    // Rounding leaves unit vectors with |z| above 1 now and then, where acos is not a number.
+    double theta = acos(fmax(-1.0, fmin(direction.z, 1.0)));
+    double phi = atan2(direction.y, direction.x);
+    bytes[0] = bin_of(theta, PM_PI);
+    bytes[1] = bin_of(phi < 0.0 ? phi + 2.0 * PM_PI : phi, 2.0 * PM_PI);
+}
+
+static pm_vec3 unpack_direction(const uint8_t bytes[2])
+{
+    const double *theta = theta_table[bytes[0]];
+    const double *phi = phi_table[bytes[1]];
+    return pm_vec(theta[1] * phi[0], theta[1] * phi[1], theta[0]);
+}
+
+// --- whole photons ---------------------------------------------------------------------------
+
+static bool is_finite(pm_vec3 v)
+{
+    return isfinite(v.x) && isfinite(v.y) && isfinite(v.z);
+}
+
+/// What is wrong with a deposit, or NULL.
+static const char *fault_of(const pm_deposit *deposit)
+{
+    pm_spectrum power = deposit->power;
+    if (!is_finite(deposit->position) || !isfinite((float)pm_vec_reach(deposit->position))) {
+        return "position must be finite, in float too";
+    }
+    if (!is_finite(deposit->direction) || !is_finite(deposit->normal)) {
+        return "direction and normal must be finite";
+    }
+    if (!pm_spectrum_is_finite(power)) {
+        return "power must be finite";
+    }
+    if (power.c[0] < 0.0 || power.c[1] < 0.0 || power.c[2] < 0.0) {
+        return "power must not be negative";
+    }
+    return NULL;
+}
+
+static uint16_t flags_of(const pm_deposit *deposit)
+{
+    pm_vec3 normal = deposit->in_medium ? pm_vec(0.0, 0.0, 0.0) : deposit->normal;
+    unsigned flags = (unsigned)pm_normal_encode(normal) << PM_PHOTON_NORMAL_SHIFT;
+    flags |= deposit->caustic ? PM_PHOTON_CAUSTIC : 0;
+    flags |= deposit->first ? PM_PHOTON_FIRST : 0;
+    return (uint16_t)flags;
+}
+
+pm_status pm_store_pack(const pm_deposit *deposit, pm_photon *photon, int *power_fits)
+{
+    const char *fault = fault_of(deposit);
+    if (fault != NULL) {
+        return PM_FAIL(PM_EINPUT, "a photon's %s; photon %llu, bounce %u", fault,
+                       (unsigned long long)deposit->photon, deposit->bounce);
+    }
+    photon->position[0] = (float)deposit->position.x;
+    photon->position[1] = (float)deposit->position.y;
+    photon->position[2] = (float)deposit->position.z;
+    photon->flags = flags_of(deposit);
+    pack_direction(deposit->direction, photon->direction);
+    *power_fits = pack_power(deposit->power, photon->power);
+    return PM_OK;
+}
+
+static pm_vec3 vec_of(const float v[3])
+{
+    return pm_vec((double)v[0], (double)v[1], (double)v[2]);
+}
+
+pm_photon_view pm_store_unpack(const pm_photon_map *map, uint32_t index)
+{
+    const pm_photon *photon = &map->photons[index];
+    pm_photon_view view = {
+        .position = vec_of(photon->position),
+        .normal = pm_normal_decode(photon->flags >> PM_PHOTON_NORMAL_SHIFT),
+        .caustic = (photon->flags & PM_PHOTON_CAUSTIC) != 0,
+        .first = (photon->flags & PM_PHOTON_FIRST) != 0,
+    };
+    if (map->exact != NULL) {
+        pm_vec3 power = vec_of(map->exact[index].power);
+        view.power = pm_rgb(power.x, power.y, power.z);
+        view.direction = vec_of(map->exact[index].direction);
+    } else {
+        view.power = unpack_power(photon->power);
+        view.direction = unpack_direction(photon->direction);
+    }
+    view.power = pm_spectrum_scale(view.power, map->scaled ? map->scale : 1.0);
+    return view;
+}
+
+/// What `photon` rounded away. Powers out of the packed range are out of this one, too: the
+/// same photons vanish or are clamped, whether a map is packed or not.
+static pm_photon_exact exact_of(const pm_deposit *deposit, const pm_photon *photon, int fits)
+{
+    pm_spectrum power = fits == 0 ? deposit->power : unpack_power(photon->power);
+    pm_vec3 direction = deposit->direction;
+    return (pm_photon_exact){
+        .power = {(float)power.c[0], (float)power.c[1], (float)power.c[2]},
+        .direction = {(float)direction.x, (float)direction.y, (float)direction.z},
+    };
+}
+
+static pm_status make_room(pm_photon_map *map)
+{
+    if (map->count < map->capacity) {
+        return PM_OK;
+    }
+    return pm_photon_map_reserve(map, pm_photon_map_growth(map, (uint64_t)map->count + 1));
+}
+
+pm_status pm_store_push(pm_photon_map *map, const pm_deposit *deposit)
+{
+    if (map->scaled) {
+        return PM_FAIL(PM_EINPUT, "%s",
+                       "a scaled map is complete: push photons before scaling");
+    }
+    if (fault_of(deposit) != NULL) {
+        map->refused++;
+        return PM_OK;
+    }
+    int fits;
+    pm_photon photon;
+    PM_TRY(pm_store_pack(deposit, &photon, &fits));
+    PM_TRY(make_room(map));
+    if (map->unpacked) {
+        map->exact[map->count] = exact_of(deposit, &photon, fits);
+    }
+    map->photons[map->count] = photon;
+    map->count++;
+    map->clamped += fits > 0 ? 1 : 0;
+    map->vanished += fits < 0 ? 1 : 0;
+    map->balanced = false;
+    return PM_OK;
+}
+
+pm_status pm_store_scale(pm_photon_map *map, uint64_t emitted)
+{
+    if (emitted == 0) {
+        return PM_FAIL(PM_EINPUT, "%s", "a map is scaled by the photons emitted, got 0");
+    }
+    if (map->scaled) {
+        return PM_FAIL(PM_EINPUT, "a map is scaled once; it is by 1/%llu already",
+                       (unsigned long long)map->emitted);
+    }
+    map->emitted = emitted;
+    map->scale = 1.0 / (double)emitted;
+    map->scaled = true;
+    return PM_OK;
+}
