@@ -1,6 +1,10 @@
 // Ray queries. A pm_intersector is a scene made ready for them, by Embree (intersect.c) or by
 // the plain double-precision oracle (intersect_plain.c); everything else sees only this table.
 //
+// Both decide every hit by the same double-precision geometry (shape_hit.h, shape.h) and among
+// hits at the same t by the lower shape, then primitive; so they agree to the last bit. Embree,
+// whose own rays are float, only says which primitives are worth asking.
+//
 // Offset rule. A hit is recomputed on its primitive in double. A ray that leaves it starts
 // moved along the geometric normal, to the side it leaves by, by 2^-19 of the largest
 // coordinate of hit and primitive. Nothing depends on the size of the whole scene and no
@@ -24,12 +28,13 @@ typedef struct {
 } pm_ray;
 
 typedef struct {
-    double t;         // [m] from the ray's origin
-    pm_vec3 position; // on the primitive
-    pm_vec3 normal;   // unit geometric normal of the shape, whichever side was hit
-    pm_vec3 inner;    // position drawn in from the primitive's edges, where leaving rays start
-    double offset;    // [m], see above
-    int shape;        // index into scene->shapes
+    double t;           // [m] from the ray's origin
+    pm_vec3 position;   // on the primitive
+    pm_vec3 normal;     // unit geometric normal of the shape, whichever side was hit
+    pm_vec3 inner;      // position, near the primitive's edges drawn in from them by a few
+                        // offsets: where leaving rays start
+    double offset;      // [m], see above
+    int shape;          // index into scene->shapes
     uint32_t primitive; // triangle of a mesh, else 0
 } pm_hit;
 
@@ -43,20 +48,28 @@ typedef struct {
 
 /// Makes `scene` ready for ray queries by Embree. The scene must outlive the intersector.
 /// @param out  [out] untouched unless PM_OK; release with pm_intersector_free()
-/// @return PM_ENOMEM when Embree has no memory
+/// @return PM_ENOMEM when Embree has no memory; PM_ELIMIT when it does not run on this
+/// processor
 pm_status pm_intersect_embree(const pm_scene *scene, pm_intersector *out);
 
 /// Releases it; a zeroed one is fine.
-void pm_intersector_free(pm_intersector *intersector);
+static inline void pm_intersector_free(pm_intersector *world)
+{
+    if (world->release) {
+        world->release(world->state);
+    }
+    *world = (pm_intersector){0};
+}
 
-/// The nearest surface that `ray` meets, null surfaces too. False when there is none.
-/// Safe to call from many threads.
+/// The nearest surface that `ray` meets at 0 < t <= t_max, null surfaces too. False, and `hit`
+/// untouched, when there is none. Safe to call from many threads.
 static inline bool pm_closest(const pm_intersector *world, const pm_ray *ray, pm_hit *hit)
 {
     return world->closest(world->state, ray, hit);
 }
 
-/// Whether any surface but a null one lies on the ray before t_max. Safe from many threads.
+/// Whether any surface but a null one lies on the ray at 0 < t <= t_max. Safe from many
+/// threads.
 static inline bool pm_blocked(const pm_intersector *world, const pm_ray *ray)
 {
     return world->blocked(world->state, ray);
@@ -73,7 +86,7 @@ static inline pm_vec3 pm_hit_leave(const pm_hit *hit, pm_vec3 direction)
 static inline pm_ray pm_hit_ray(const pm_hit *hit, pm_vec3 direction, double wavelength,
                                 int medium)
 {
-    return (pm_ray){pm_hit_leave(hit, direction), direction, INFINITY, wavelength, medium};
+    return (pm_ray){pm_hit_leave(hit, direction), direction, HUGE_VAL, wavelength, medium};
 }
 
 #endif
