@@ -2,13 +2,13 @@
 // nor the books depend on how many threads there are.
 #include "photon_pass.h"
 
+#include "clock.h"
 #include "interrupt.h"
 #include "photon_map.h"
 #include "store.h"
 
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #define CHUNK 1024u
 #define DIFFUSE_CAP 10000u
@@ -235,19 +235,12 @@ static pm_status outcome(const pm_pass *pass)
     return PM_OK;
 }
 
-static double seconds_now(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 /// Runs the pass into `map` and `report`, both fresh.
 static pm_status run(const pm_intersector *world, pm_map_kind kind,
                      const pm_pass_settings *settings, pm_photon_map *map,
                      pm_pass_report *report)
 {
-    double start = seconds_now();
+    double start = pm_seconds_now();
     pm_pass pass = {.settings = settings, .map = map, .audit = &report->audit};
     prepare(&pass, world, kind);
     PM_TRY(pm_emit_share(world->scene, settings->count, report->share));
@@ -259,7 +252,7 @@ static pm_status run(const pm_intersector *world, pm_map_kind kind,
     pm_audit_scale(&report->audit, 1.0 / (double)pass.emitted);
     report->emitted = pass.emitted;
     report->deposits = (uint64_t)map->count + map->refused;
-    report->seconds = seconds_now() - start;
+    report->seconds = pm_seconds_now() - start;
     return PM_OK;
 }
 

@@ -1,0 +1,187 @@
+// The eye path goes on at S events only; every diffuse surface on it is asked for its light and
+// ends it as far as D is concerned.
+#include "compose.h"
+
+#include <stddef.h>
+
+/// An eye path on its way.
+typedef struct {
+    pm_ray ray;
+    pm_spectrum weight; // factor on radiance found at its end
+    uint32_t specular;  // S events so far
+} pm_path;
+
+/// The next surface on the ray that does something; null surfaces are passed.
+static bool next_vertex(const pm_compose *compose, pm_ray *ray, pm_vertex *at)
+{
+    while (pm_closest(compose->world, ray, &at->hit)) {
+        pm_material_lobes(compose->world->scene, &at->hit, pm_vec_negate(ray->direction),
+                          ray->wavelength, &at->lobes);
+        if (!at->lobes.passes) {
+            return true;
+        }
+        *ray = pm_hit_ray(&at->hit, ray->direction, ray->wavelength, at->lobes.medium_beyond);
+    }
+    return false;
+}
+
+typedef pm_status (*pm_source_fn)(void *context, const pm_vertex *at, pm_spectrum *radiance);
+
+/// Adds what a source says to `layer`, or to specular once the path has had an S event.
+static pm_status ask(const pm_compose *compose, pm_source_fn source, const pm_vertex *at,
+                     const pm_path *path, pm_layer layer, pm_eye *eye)
+{
+    pm_layer into = path->specular > 0 ? PM_LAYER_SPECULAR : layer;
+    if (source == NULL || !compose->wanted[into]) {
+        return PM_OK;
+    }
+    pm_spectrum radiance = pm_gray(0.0);
+    PM_TRY(source(compose->ask.context, at, &radiance));
+    eye->layer[into] =
+        pm_spectrum_add(eye->layer[into], pm_spectrum_mul(path->weight, radiance));
+    return PM_OK;
+}
+
+static pm_status ask_all(const pm_compose *compose, const pm_vertex *at, const pm_path *path,
+                         pm_eye *eye)
+{
+    const pm_compose_sources *sources = &compose->ask;
+    PM_TRY(ask(compose, sources->emitted, at, path, PM_LAYER_EMISSION, eye));
+    if (at->lobes.diffuse) {
+        PM_TRY(ask(compose, sources->direct, at, path, PM_LAYER_DIRECT, eye));
+        PM_TRY(ask(compose, sources->caustic, at, path, PM_LAYER_CAUSTIC, eye));
+        PM_TRY(ask(compose, sources->indirect, at, path, PM_LAYER_INDIRECT, eye));
+    }
+    return PM_OK;
+}
+
+static void note_first(const pm_vertex *at, pm_eye *eye)
+{
+    if (!eye->hit) {
+        eye->hit = true;
+        eye->depth = at->hit.t;
+        eye->normal = at->lobes.normal;
+    }
+}
+
+static bool emits_towards(const pm_scene *scene, const pm_vertex *at)
+{
+    return scene->shapes[at->hit.shape].light != PM_NONE &&
+           pm_vec_dot(at->lobes.wi, at->hit.normal) > 0.0;
+}
+
+/// The S lobes of a vertex, in the order of its lobes; writes their places there.
+static int specular_lobes(const pm_lobes *lobes, pm_lobe *only, int *place)
+{
+    int count = 0;
+    for (int i = 0; i < lobes->count; i++) {
+        if (lobes->lobe[i].specular) {
+            only[count] = lobes->lobe[i];
+            place[count++] = i;
+        }
+    }
+    return count;
+}
+
+/// The path after S lobe `which`; `weight` holds that lobe's albedo already.
+static pm_path turned(const pm_path *path, const pm_vertex *at, int which, pm_spectrum weight,
+                      pm_rng *rng)
+{
+    pm_scatter scatter;
+    pm_material_sample(&at->lobes, which, rng, &scatter);
+    weight = pm_spectrum_scale(pm_spectrum_mul(weight, scatter.weight), scatter.radiance);
+    return (pm_path){
+        .ray = pm_hit_ray(&at->hit, scatter.wo, path->ray.wavelength, scatter.medium),
+        .weight = weight,
+        .specular = path->specular + 1,
+    };
+}
+
+static pm_status follow(const pm_compose *compose, pm_path path, pm_vertex at, uint64_t index,
+                        pm_eye *eye);
+
+static pm_status follow_every_lobe(const pm_compose *compose, const pm_path *path,
+                                   const pm_vertex *at, uint64_t index, pm_rng *rng,
+                                   pm_eye *eye)
+{
+    pm_lobe lobes[PM_LOBES_MAX];
+    int place[PM_LOBES_MAX];
+    int count = specular_lobes(&at->lobes, lobes, place);
+    for (int i = 0; i < count; i++) {
+        pm_spectrum weight = pm_spectrum_mul(path->weight, lobes[i].albedo);
+        pm_path branch = turned(path, at, place[i], weight, rng);
+        PM_TRY(follow(compose, branch, *at, index, eye));
+    }
+    return PM_OK;
+}
+
+/// One lobe by roulette; false when the path ends.
+static pm_status choose_lobe(const pm_compose *compose, pm_path *path, const pm_vertex *at,
+                             pm_rng *rng, bool *goes_on)
+{
+    pm_lobe lobes[PM_LOBES_MAX];
+    int place[PM_LOBES_MAX];
+    int count = specular_lobes(&at->lobes, lobes, place);
+    pm_roulette outcome;
+    PM_TRY(pm_trace_roulette(path->weight, lobes, count, compose->rule, rng, &outcome));
+    *goes_on = outcome.lobe != PM_NONE;
+    if (*goes_on) {
+        *path = turned(path, at, place[outcome.lobe], outcome.power, rng);
+    }
+    return PM_OK;
+}
+
+static pm_status follow(const pm_compose *compose, pm_path path, pm_vertex at, uint64_t index,
+                        pm_eye *eye)
+{
+    for (bool goes_on = true; goes_on;) {
+        if (!next_vertex(compose, &path.ray, &at)) {
+            return PM_OK;
+        }
+        at.vertex = ++eye->vertices;
+        note_first(&at, eye);
+        eye->emitter = eye->emitter || emits_towards(compose->world->scene, &at);
+        PM_TRY(ask_all(compose, &at, &path, eye));
+        if (!compose->wanted[PM_LAYER_SPECULAR]) {
+            return PM_OK;
+        }
+        if (path.specular >= compose->max_specular) {
+            eye->cut++;
+            return PM_OK;
+        }
+        pm_rng rng = pm_rng_at(&compose->source, index, at.vertex);
+        if (path.specular < compose->splits) {
+            return follow_every_lobe(compose, &path, &at, index, &rng, eye);
+        }
+        PM_TRY(choose_lobe(compose, &path, &at, &rng, &goes_on));
+    }
+    return PM_OK;
+}
+
+pm_status pm_compose_eye(const pm_compose *compose, const pm_ray *ray, uint64_t pixel,
+                         uint32_t sample, uint64_t index, pm_eye *eye)
+{
+    pm_vertex at = {.pixel = pixel, .sample = sample};
+    pm_path path = {.ray = *ray, .weight = pm_gray(1.0)};
+    return follow(compose, path, at, index, eye);
+}
+
+pm_status pm_compose_gather(const pm_compose *compose, const pm_ray *ray, const pm_vertex *at,
+                            pm_rng *rng, pm_spectrum *radiance)
+{
+    *radiance = pm_gray(0.0);
+    pm_path path = {.ray = *ray, .weight = pm_gray(1.0)};
+    pm_vertex end = *at;
+    for (bool goes_on = true; goes_on && path.specular < compose->max_specular;) {
+        if (!next_vertex(compose, &path.ray, &end)) {
+            return PM_OK;
+        }
+        if (end.lobes.diffuse && compose->ask.global != NULL) {
+            pm_spectrum leaving = pm_gray(0.0);
+            PM_TRY(compose->ask.global(compose->ask.context, &end, &leaving));
+            *radiance = pm_spectrum_add(*radiance, pm_spectrum_mul(path.weight, leaving));
+        }
+        PM_TRY(choose_lobe(compose, &path, &end, rng, &goes_on));
+    }
+    return PM_OK;
+}

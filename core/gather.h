@@ -1,0 +1,32 @@
+// The sources of light that the picture is composed from: shadow rays, the maps, the final
+// gather. One pm_gather a thread; the maps behind it are shared and only read.
+#ifndef PM_GATHER_H
+#define PM_GATHER_H
+
+#include "compose.h"
+#include "estimate.h"
+
+/// How a picture's light is looked up.
+typedef struct {
+    pm_estimate_settings estimate;
+    uint32_t rays;          // of the final gather, a pixel; 0: the global map is seen directly
+    uint32_t light_samples; // shadow rays to each area light, a pixel
+    uint32_t spp;           // eye samples a pixel that these are dealt out to
+} pm_gather_settings;
+
+typedef struct {
+    const pm_compose *compose;              // that asks; set by pm_gather_sources()
+    const pm_photon_map *map[PM_MAP_COUNT]; // balanced; NULL: not in this picture
+    pm_gather_settings settings;
+    pm_neighbour *scratch; // settings.estimate.k entries
+    // what the estimates in the global map used, summed since the user set them to 0
+    double radius_sum;
+    uint64_t found_sum;
+    uint64_t lookups;
+} pm_gather;
+
+/// Points compose->ask at `gather` and the maps that it has.
+/// Indirect light exists when there is a global map, caustics when there is a caustic map.
+void pm_gather_sources(pm_gather *gather, pm_compose *compose);
+
+#endif

@@ -1,0 +1,62 @@
+// The whole picture: plan, photon maps, trees, eye pass, image.
+#ifndef PM_RENDER_H
+#define PM_RENDER_H
+
+#include "gather.h"
+#include "image.h"
+#include "photon_pass.h"
+#include "plan.h"
+
+/// How a picture is made. From pm_render_defaults(), then changed.
+typedef struct {
+    uint32_t seed;
+    uint64_t photons[PM_MAP_COUNT]; // to emit; 0: the map is off by choice
+    uint64_t stored;                // emit until each map holds this many instead; 0: off
+    pm_roulette_rule roulette;
+    uint32_t max_bounces; // 0: the rule of pm_photon_pass_caps()
+    bool unpacked;
+    pm_gather_settings light;
+    int only;          // one pm_layer, or PM_NONE for all
+    bool view_photons; // photons as dots in place of the picture
+} pm_render_settings;
+
+pm_render_settings pm_render_defaults(void);
+
+/// The maps of a picture and how they came to be.
+typedef struct {
+    pm_plan plan;
+    bool has[PM_MAP_COUNT];
+    pm_photon_map map[PM_MAP_COUNT];
+    pm_pass_report pass[PM_MAP_COUNT]; // zeroed where a stored map was given
+    double balance_seconds[PM_MAP_COUNT];
+} pm_render_maps;
+
+/// What the eye pass did.
+typedef struct {
+    double seconds;
+    uint64_t lookups; // in the global map
+    uint64_t cut;     // eye paths ended after too many S events in a row
+} pm_eye_report;
+
+/// Traces and balances the maps that the scene needs and `settings` does not switch off.
+/// A map that is there already (`has` set, from a file) is balanced if it is not and kept.
+///
+/// @param maps  [in, out] zeroed, or with maps given; free with pm_render_maps_free() in any
+/// case
+pm_status pm_render_make_maps(const pm_intersector *world, const pm_render_settings *settings,
+                              pm_render_maps *maps);
+void pm_render_maps_free(pm_render_maps *maps);
+
+/// The picture with all its layers, as seen by the scene's camera from these maps.
+///
+/// Channels: R G B, LAYER.R .G .B for each layer, depth.Z [m] from the eye (0 where nothing
+/// is), normal.X .Y .Z, gather.radius [m] and gather.count (means over the estimates in the
+/// global map), mask.emitter. The layers add up to R G B.
+///
+/// @param image   [out] untouched unless PM_OK; free with pm_image_free()
+/// @param report  [out]
+/// @return PM_ESTOPPED on SIGINT
+pm_status pm_render_image(const pm_intersector *world, const pm_render_settings *settings,
+                          const pm_render_maps *maps, pm_image *image, pm_eye_report *report);
+
+#endif
