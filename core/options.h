@@ -13,7 +13,6 @@
 
 #include <stdbool.h>
 #include <stdint.h>
-#include <stdio.h>
 
 #define PM_OPTIONS_REPEAT_MAX 64 // times that -D or --map may be given
 
@@ -69,6 +68,7 @@ typedef struct {
     int map_count;
     const char *difference; // compare --map FILE.png
     const char *title;
+    const char *tree; // "balanced"
 
     // compare
     bool no_mask, same;
@@ -82,8 +82,13 @@ typedef struct {
     bool help;
     pm_define define[PM_OPTIONS_REPEAT_MAX];
     int define_count;
-    char define_text[4096]; // the names and values of `define`
 } pm_options;
+
+// Groups of keys that several programs take.
+#define PM_OPTIONS_PHOTONS                                                                     \
+    "n global-photons caustic-photons volume-photons roulette max-bounces packing"
+#define PM_OPTIONS_COMMON "seed threads json D help" // taken by all
+#define PM_OPTIONS_ESTIMATE "k r shape filter kernel-constants flatness"
 
 /// What a program takes. `options` and `needs` list keys separated by blanks: the option's name
 /// without dashes ("n k r shape at"), except "check-file" for `--check FILE` and "difference"
@@ -102,17 +107,14 @@ typedef struct {
 /// The defaults of the design, before any command line.
 pm_options pm_options_defaults(void);
 
-/// Parses a command line; argv is reordered so that positionals come last.
+/// Parses a command line; argv is reordered so that positionals come last, and the '=' of a
+/// `-D name=value` becomes the end of its name.
 ///
 /// With --help, whatever else is wrong, the answer is PM_OK with `help` set.
 ///
-/// @param options  [out] untouched unless PM_OK; valid while argv is. It points into itself
-///                 (define), so it is not to be copied
+/// @param options  [out] untouched unless PM_OK; valid while argv is
 /// @return PM_EINPUT with one line per fault: `render: --gather must be ..., got "x"`
 pm_status pm_options_parse(int argc, char **argv, const pm_options_program *program,
                            pm_options *options);
-
-/// Prints the usage: every option with its unit and default.
-void pm_options_help(const pm_options_program *program, FILE *stream);
 
 #endif

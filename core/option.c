@@ -1,0 +1,133 @@
+// The table of all options. Its order is the order of --help.
+#include "option.h"
+
+#include <math.h>
+
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+
+#define AT(field) offsetof(pm_options, field)
+#define MANY 9007199254740992.0 // 2^53: counts stay exact where they meet doubles
+#define UINT32_ABOVE 4294967295.0
+
+static const pm_option table[] = {
+    {"n", "n", PM_OPTION_COUNT, AT(photons), 0, 1, MANY, "N",
+     "photons emitted for each map that is traced", "per map, see below"},
+    {"photons", "photons", PM_OPTION_COUNT, AT(photons_total), 0, 1, MANY, "N",
+     "photons emitted in all, split by the plan", "per map, see below"},
+    {"global-photons", "global-photons", PM_OPTION_COUNT, AT(photons[PM_MAP_GLOBAL]), 0, 0,
+     MANY, "N", "photons emitted for the global map; 0: no such map", NULL},
+    {"caustic-photons", "caustic-photons", PM_OPTION_COUNT, AT(photons[PM_MAP_CAUSTIC]), 0, 0,
+     MANY, "N", "photons emitted for the caustic map; 0: no such map", NULL},
+    {"volume-photons", "volume-photons", PM_OPTION_COUNT, AT(photons[PM_MAP_VOLUME]), 0, 0,
+     MANY, "N", "photons emitted for the volume map; 0: no such map", NULL},
+    {"roulette", "roulette", PM_OPTION_CHOICE, AT(roulette), 0, 0, 0, "max|average",
+     "how the chance to go on is taken from the colours", NULL},
+    {"max-bounces", "max-bounces", PM_OPTION_COUNT32, AT(max_bounces), 0, 1, UINT32_ABOVE, "N",
+     "events after which a path is cut (its power is reported as lost)",
+     "none; 10000 where an albedo is above 0.9999"},
+    {"packing", "packing", PM_OPTION_SWITCH, AT(unpacked), 0, 0, 0, "on|off",
+     "20-byte photons; off keeps exact power and direction beside them", NULL},
+    {"tree", "tree", PM_OPTION_WORD, AT(tree), 0, 0, 0, "balanced", "how photons are searched",
+     "balanced"},
+    {"k", "k", PM_OPTION_COUNT32, AT(estimate.k), AT(k_given), 1, PM_MAP_MAX, "N",
+     "photons of an estimate", NULL},
+    {"r", "r", PM_OPTION_POSITIVE, AT(estimate.radius), 0, 0, (double)INFINITY, "R",
+     "reach of an estimate [m], above 0, or none", "none"},
+    {"shape", "shape", PM_OPTION_CHOICE, AT(estimate.shape), 0, 0, 0, "disc|sphere",
+     "region of an estimate", NULL},
+    {"flatness", "flatness", PM_OPTION_POSITIVE, AT(estimate.flatness), 0, 0, 1, "F",
+     "height of the disc over its radius, above 0, at most 1", NULL},
+    {"filter", "filter", PM_OPTION_CHOICE, AT(estimate.filter), 0, 0, 0,
+     "none|cone|gaussian|epanechnikov", "kernel of an estimate", NULL},
+    {"kernel-constants", "kernel-constants", PM_OPTION_CHOICE, AT(estimate.constants), 0, 0, 0,
+     "unbiased|lecture", "lecture: 0.918 in the Gaussian, and k photons in place of k - 1",
+     NULL},
+    {"gather", "gather", PM_OPTION_COUNT32, AT(gather), 0, 0, 1e6, "N",
+     "directions of a final gather; 0: the global map is seen directly", NULL},
+    {"spp", "spp", PM_OPTION_COUNT32, AT(spp), 0, 1, 1e6, "N", "samples of a pixel", NULL},
+    {"direct", "direct", PM_OPTION_SWITCH, AT(direct_by_photons), 0, 0, 0, "rays|photons",
+     "direct light by shadow rays or from the global map", NULL},
+    {"caustics", "caustics", PM_OPTION_SWITCH, AT(caustics_by_global), 0, 0, 0, "map|global",
+     "caustics from their own map or from the global one", NULL},
+    {"view", "view", PM_OPTION_SWITCH, AT(view_photons), 0, 0, 0, "full|photons",
+     "the picture, or the photon estimate as it is", NULL},
+    {"size", "size", PM_OPTION_SIZE, AT(width), 0, 1, 65536, "WxH", "pixels", "the scene's"},
+    {"preset", "preset", PM_OPTION_WORD, AT(preset), 0, 0, 0,
+     "lecture-10k|lecture-500k|lecture-disc",
+     "the lecture's settings: 10000 stored photons and k 100; 500000 and k 500; the same with "
+     "a disc. Other options override it",
+     "none"},
+    {"only", "only", PM_OPTION_CHOICE, AT(only), 0, 0, 0,
+     "emission|specular|volume|direct|caustic|indirect", "one layer of the picture", "all"},
+    {"explain", "explain", PM_OPTION_FLAG, AT(explain), 0, 0, 0, "",
+     "say what the scene requires and why, and stop", NULL},
+    {"check", "check", PM_OPTION_FLAG, AT(check_scene), 0, 0, 0, "",
+     "validate the scene and stop", NULL},
+    {"check-file", "check", PM_OPTION_TEXT, AT(check_file), 0, 0, 0, "FILE",
+     "check a photon file and stop; needs no scene", "none"},
+    {"at", "at", PM_OPTION_POINT, AT(at), AT(has_at), 0, 0, "X,Y,Z", "a point [m]", "none"},
+    {"normal", "normal", PM_OPTION_DIRECTION, AT(normal), AT(has_normal), 0, 0, "X,Y,Z",
+     "the side looked at; made unit", "none"},
+    {"points", "points", PM_OPTION_TEXT, AT(points), 0, 0, 0, "FILE",
+     "points, a line each: x y z nx ny nz", "none"},
+    {"on", "on", PM_OPTION_TEXT, AT(on), 0, 0, 0, "SHAPE",
+     "id of a rectangle that --grid covers with points", "none"},
+    {"grid", "grid", PM_OPTION_SIZE, AT(grid_w), 0, 1, 65536, "WxH", "points on --on", "none"},
+    {"runs", "runs", PM_OPTION_COUNT32, AT(runs), 0, 1, 1e6, "M", "independent maps", NULL},
+    {"photon", "photon", PM_OPTION_COUNT, AT(photon), AT(has_photon), 0, MANY, "I",
+     "replay the photon of this index, event by event", "none"},
+    {"channel", "channel", PM_OPTION_TEXT, AT(channel), 0, 0, 0, "NAME", "channel of a picture",
+     "none"},
+    {"map", "map", PM_OPTION_MAP, AT(map), 0, 0, 0, "FILE",
+     "use a stored photon map; may be repeated", "none"},
+    {"difference", "map", PM_OPTION_TEXT, AT(difference), 0, 0, 0, "FILE.png",
+     "false-colour picture of the error", "none"},
+    {"no-mask", "no-mask", PM_OPTION_FLAG, AT(no_mask), 0, 0, 0, "",
+     "count lamps and the frame too", NULL},
+    {"same", "same", PM_OPTION_FLAG, AT(same), 0, 0, 0, "",
+     "answer whether the difference is a fault or noise", NULL},
+    {"max-rel-mse", "max-rel-mse", PM_OPTION_REAL, AT(max_rel_mse), AT(has_max_rel_mse), 0,
+     (double)INFINITY, "X", "exit 1 when rel_mse is above", "none"},
+    {"o", "o", PM_OPTION_TEXT, AT(output), 0, 0, 0, "FILE", "output", "none"},
+    {"png", "png", PM_OPTION_TEXT, AT(png), 0, 0, 0, "FILE", "also an 8-bit sRGB picture",
+     "none"},
+    {"exposure", "exposure", PM_OPTION_REAL, AT(exposure), 0, -100, 100, "E",
+     "stops by which the PNG is made brighter", NULL},
+    {"dump", "dump", PM_OPTION_TEXT, AT(dump), 0, 0, 0, "FILE.csv", "data, a line each",
+     "none"},
+    {"report", "report", PM_OPTION_TEXT, AT(report), 0, 0, 0, "FILE.json",
+     "the JSON object as a file", "none"},
+    {"title", "title", PM_OPTION_TEXT, AT(title), 0, 0, 0, "TEXT", "title of a picture",
+     "none"},
+    {"seed", "seed", PM_OPTION_COUNT32, AT(seed), 0, 0, UINT32_ABOVE, "S",
+     "of the random numbers", NULL},
+    {"threads", "threads", PM_OPTION_COUNT32, AT(threads), 0, 1, 4096, "T", "threads", "all"},
+    {"json", "json", PM_OPTION_FLAG, AT(json), 0, 0, 0, "",
+     "one JSON object on standard output, nothing else there", NULL},
+    {"D", "D", PM_OPTION_DEFINE, AT(define), 0, 0, 0, "NAME=VALUE",
+     "set a <default> of the scene; may be repeated", "none"},
+    {"help", "help", PM_OPTION_FLAG, AT(help), 0, 0, 0, "", "this text", NULL},
+};
+
+const pm_option *pm_option_at(int index)
+{
+    int count = (int)(sizeof table / sizeof table[0]);
+    return index >= 0 && index < count ? &table[index] : NULL;
+}
+
+const pm_option *pm_option_find(const char *key)
+{
+    for (int i = 0; pm_option_at(i) != NULL; i++) {
+        if (strcmp(table[i].key, key) == 0) {
+            return &table[i];
+        }
+    }
+    return NULL;
+}
+
+void pm_option_spell(const pm_option *option, char *text, size_t room)
+{
+    snprintf(text, room, "%s%s", strlen(option->name) == 1 ? "-" : "--", option->name);
+}
