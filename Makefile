@@ -1,87 +1,219 @@
-# photonlab. `make help` lists the targets; one file, everything it makes lies under build/.
+# photonlab. One file; everything it makes lies under build/. `make help` lists the targets.
+#
+#   make BUILD=build/mine BIN=build/mine/bin all    keeps a second build beside the first
+#   make SAN=1 test                                 address and undefined-behaviour sanitizers
+#   make ONLY=store test                            the tests whose tag begins so
 
-# --- what the user may set -----------------------------------------------------------------------
+.DEFAULT_GOAL := all
+.DELETE_ON_ERROR:
+.SECONDEXPANSION:
+
+# --- what the user may set -------------------------------------------------------------------
 CC ?= cc
 CXX ?= c++
 CFLAGS ?= -O2 -g
 CXXFLAGS ?= -O2 -g
+PREFIX ?= /usr
 SAN ?=
 WERROR ?=
-
-# --- parts from elsewhere, each found once --------------------------------------------------------
-PREFIX ?= /usr
-EMBREE_VERSION := $(if $(wildcard $(PREFIX)/include/embree4/rtcore.h),4,3)
-VTK_INCLUDE := $(shell ls -d $(PREFIX)/include/vtk-* 2>/dev/null | sort -V | tail -1)
-VTK_SUFFIX := $(patsubst vtk-%,%,$(notdir $(VTK_INCLUDE)))
-PACKAGES := expat jansson libpng zlib assimp
-PART_CFLAGS := $(shell pkg-config --cflags $(PACKAGES) OpenEXR 2>/dev/null | sed 's/-I/-isystem /g') -DPM_EMBREE=$(EMBREE_VERSION)
-PART_LIBS := $(shell pkg-config --libs $(PACKAGES) 2>/dev/null) -lOpenEXRCore -lembree$(EMBREE_VERSION) -lm
-GSL_LIBS := -lgsl -lgslcblas
-
-# --- how our code is compiled ---------------------------------------------------------------------
+ONLY ?=
+JOBS ?= $(shell nproc 2>/dev/null || echo 1)
 BUILD := build/$(if $(SAN),san,ref)
 BIN := build/bin$(if $(SAN),-san)
-WARN := -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wdouble-promotion -Wvla -Wformat=2 -Wundef \
-  -Wwrite-strings -Wcast-qual -Wnull-dereference
+
+# --- parts from elsewhere: package, where it shows, who needs it, for what -------------------
+# Read by `make deps` and `make doctor`. A part shows as a program on PATH or as a file under
+# PREFIX; alternatives are separated by commas.
+define PARTS
+pkg-config        bin:pkg-config                     all      finds the compiler flags of the parts below
+libexpat1-dev     include/expat.h                    all      scene files (XML)
+libassimp-dev     include/assimp/cimport.h           all      meshes (PLY, OBJ)
+libembree-dev     include/embree3/rtcore.h,include/embree4/rtcore.h all ray queries
+librandom123-dev  include/Random123/philox.h         all      random numbers (Philox)
+libopenexr-dev    include/OpenEXR/openexr.h          all      pictures in floating point (EXR)
+libpng-dev        include/png.h                      all      pictures for the screen (PNG)
+zlib1g-dev        include/zlib.h                     all      checksum of photon files
+libjansson-dev    include/jansson.h                  all      reports (JSON)
+libgsl-dev        include/gsl/gsl_cdf.h              tests    statistics, in the test programs only
+g++               bin:g++                            view     compiles the files that call VTK
+libvtk9-dev       include/vtk-9*                     view     pictures of photons, paths and trees
+libegl-dev        include/EGL/egl.h                  view     draws without a display
+libgl1-mesa-dri   lib/*/dri/swrast_dri.so,lib/*/libgallium-*.so view draws without a graphics card
+clang             bin:clang                          check    the second compiler
+libomp-dev        lib/llvm-*/lib/libomp.so           check    threads for the second compiler
+clang-format      bin:clang-format                   check    the layout of the sources
+clang-tidy        bin:clang-tidy                     check    finds what compilers do not warn of
+cppcheck          bin:cppcheck                       check    the same, by other means
+endef
+export PARTS PREFIX
+
+EMBREE := $(if $(wildcard $(PREFIX)/include/embree4/rtcore.h),4,3)
+VTK_INCLUDE := $(lastword $(sort $(wildcard $(PREFIX)/include/vtk-9*)))
+VTK_SUFFIX := $(patsubst vtk-%,%,$(notdir $(VTK_INCLUDE)))
+PACKAGES := expat assimp libpng zlib jansson
+PART_CFLAGS := -DPM_EMBREE=$(EMBREE) \
+  $(shell pkg-config --cflags $(PACKAGES) OpenEXR 2>/dev/null | sed 's/-I/-isystem /g')
+PART_LIBS := $(shell pkg-config --libs $(PACKAGES) 2>/dev/null) -lOpenEXRCore -lembree$(EMBREE) -lm
+GSL_LIBS := -lgsl -lgslcblas
+# VTK has no pkg-config file in Debian 12.
+VTK_MODULES := IOXML IOImage RenderingAnnotation RenderingOpenGL2 RenderingFreeType \
+  InteractionStyle RenderingUI RenderingCore FiltersSources CommonColor CommonExecutionModel \
+  CommonTransforms CommonDataModel CommonMath CommonCore sys
+VTK_LIBS := -Wl,--as-needed $(VTK_MODULES:%=-lvtk%-$(VTK_SUFFIX)) -lGLEW -lEGL -lX11 -ldl
+
+# A make below this one, with as many jobs as there are cores unless told otherwise.
+AGAIN = $(MAKE) --no-print-directory $(if $(findstring -j,$(MAKEFLAGS)),,-j$(JOBS))
+
+# --- how our code is compiled -----------------------------------------------------------------
+WARN := -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wdouble-promotion -Wvla -Wformat=2 \
+  -Wundef -Wwrite-strings -Wcast-qual -Wnull-dereference
 WARN_C := $(WARN) -Wstrict-prototypes -Wmissing-prototypes
 ifneq ($(findstring clang,$(shell $(CC) --version 2>/dev/null)),)
 WARN_C += -Wcomma -Wmissing-variable-declarations
 else
 WARN_C += -Wduplicated-cond -Wduplicated-branches -Wlogical-op -Wformat-signedness
 endif
-COMMON := -ffp-contract=off -fopenmp -MMD -MP -Icore $(if $(WERROR),-Werror)
-ifneq ($(SAN),)
-COMMON += -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
-LINK := -fsanitize=address,undefined
-endif
-C_FLAGS := -std=c17 -D_XOPEN_SOURCE=700 $(WARN_C) $(COMMON) $(PART_CFLAGS)
-CXX_FLAGS := -std=c++17 $(WARN) $(COMMON) -isystem $(VTK_INCLUDE)
-LINK += -fopenmp
+SANITIZE := $(if $(SAN),-fsanitize=address -fsanitize=undefined -fno-sanitize-recover=all \
+  -fno-omit-frame-pointer)
+# No contraction: clang would fuse multiply and add where gcc does not, and pictures differ.
+COMMON := -ffp-contract=off -fopenmp -Icore $(SANITIZE)
+SPEAK_C := -std=c17 -D_XOPEN_SOURCE=700 $(COMMON) $(PART_CFLAGS)
+SPEAK_CXX := -std=c++17 $(COMMON) -isystem $(VTK_INCLUDE)
+STRICTNESS := $(if $(WERROR),-Werror) -MMD -MP
+COMPILE_C = $(CC) $(CFLAGS) $(SPEAK_C) $(WARN_C) $(STRICTNESS)
+COMPILE_CXX = $(CXX) $(CXXFLAGS) $(SPEAK_CXX) $(WARN) $(STRICTNESS)
+LINK = $(CC) -fopenmp $(SANITIZE) $(LDFLAGS)
+LINK_CXX = $(CXX) -fopenmp $(SANITIZE) $(LDFLAGS)
 
-CORE := $(patsubst %.c,$(BUILD)/%.o,$(wildcard core/*.c))
-RUNNER := $(patsubst %.c,$(BUILD)/%.o,$(wildcard tests/runner*.c))
-TESTS := $(patsubst %.c,$(BUILD)/%.o,$(wildcard tests/test_*.c))
+objects = $(patsubst %,$(BUILD)/%.o,$(basename $(1)))
+CORE := $(call objects,$(wildcard core/*.c))
+VISUALIZE := $(call objects,$(filter-out visualize/view.c,$(wildcard visualize/*.c)))
+VISUALIZE_VTK := $(call objects,$(wildcard visualize/*.cc))
+RUNNER := $(call objects,$(wildcard tests/runner*.c))
+TESTS := $(filter-out $(RUNNER),$(call objects,$(wildcard tests/*.c)))
+BENCHES := $(patsubst tests/bench/%.c,%,$(wildcard tests/bench/*.c))
 
-# --- programs -------------------------------------------------------------------------------------
-DRIVER_emission := labs/01_emission/driver
-DRIVER_tracing := labs/02_tracing/driver
-DRIVER_storage := labs/03_storage/driver
-DRIVER_balancing := labs/04_balancing/driver
-DRIVER_radiance := labs/05_radiance/driver
-DRIVER_filtering := labs/06_filtering/driver
-DRIVER_render := labs/07_rendering/driver
-DRIVER_compare := labs/07_rendering/compare
+# --- programs: a list of objects each ---------------------------------------------------------
+MAIN_emission := labs/01_emission/driver
+MAIN_tracing := labs/02_tracing/driver
+MAIN_storage := labs/03_storage/driver
+MAIN_balancing := labs/04_balancing/driver
+MAIN_radiance := labs/05_radiance/driver
+MAIN_filtering := labs/06_filtering/driver
+MAIN_render := labs/07_rendering/driver
+MAIN_compare := labs/07_rendering/compare
 LAB_PROGRAMS := $(foreach p,emission tracing storage balancing radiance filtering render compare,\
-  $(if $(wildcard $(DRIVER_$(p)).c),$(p)))
-PROGRAMS := $(LAB_PROGRAMS:%=$(BIN)/%)
+  $(if $(wildcard $(MAIN_$(p)).c),$(p)))
+VIEW := $(if $(VTK_INCLUDE),$(if $(wildcard visualize/view.c),$(BIN)/view))
+PROGRAMS := $(LAB_PROGRAMS:%=$(BIN)/%) $(VIEW)
 
-all: $(PROGRAMS)
+all: $(PROGRAMS) ## build the programs into build/bin
+	@$(if $(VTK_INCLUDE),:,echo "view is left out: VTK is missing; \`make deps\` installs libvtk9-dev")
 
-.SECONDEXPANSION:
-$(LAB_PROGRAMS:%=$(BIN)/%): $(BIN)/%: $(BUILD)/$$(DRIVER_%).o $(CORE)
+$(LAB_PROGRAMS:%=$(BIN)/%): $(BIN)/%: $(BUILD)/$$(MAIN_%).o $(CORE)
 	@mkdir -p $(@D)
-	$(CC) $(LINK) $(LDFLAGS) -o $@ $^ $(PART_LIBS)
+	$(LINK) -o $@ $^ $(PART_LIBS)
 
-$(BUILD)/%.o: %.c
+$(BIN)/view: $(BUILD)/visualize/view.o $(VISUALIZE) $(VISUALIZE_VTK) $(CORE)
 	@mkdir -p $(@D)
-	$(CC) $(CFLAGS) $(C_FLAGS) -c -o $@ $<
+	$(LINK_CXX) -o $@ $^ $(VTK_LIBS) $(PART_LIBS)
 
-$(BUILD)/%.o: %.cc
+$(BUILD)/%.o: %.c $(BUILD)/flags | $(BUILD)/parts
 	@mkdir -p $(@D)
-	$(CXX) $(CXXFLAGS) $(CXX_FLAGS) -c -o $@ $<
+	$(COMPILE_C) $(DEFINE) -c -o $@ $<
 
-# Programs are found beside the build by their full path, so a test may change its folder.
-$(RUNNER): PART_CFLAGS += -DPM_TEST_BIN='"$(abspath $(BIN))"'
+$(BUILD)/%.o: %.cc $(BUILD)/flags | $(BUILD)/parts
+	@mkdir -p $(@D)
+	$(COMPILE_CXX) -c -o $@ $<
 
-$(BUILD)/tests/run: $(RUNNER) $(TESTS) $(CORE)
-	$(CC) $(LINK) $(LDFLAGS) -o $@ $(sort $^) $(PART_LIBS) $(GSL_LIBS)
+# Changes only when the compilers or their flags do; then everything is compiled anew.
+$(BUILD)/flags: FORCE
+	@mkdir -p $(@D)
+	@echo '$(COMPILE_C) $(COMPILE_CXX)' | cmp -s - $@ || echo '$(COMPILE_C) $(COMPILE_CXX)' > $@
 
-test: $(BUILD)/tests/run $(PROGRAMS)
-	$(BUILD)/tests/run $(ONLY)
+# Nothing is compiled before every required part has been seen once.
+$(BUILD)/parts:
+	@mkdir -p $(@D)
+	@.ci/parts doctor > $@ || { cat $@; exit 2; }
 
-clean:
+# --- tests ------------------------------------------------------------------------------------
+ATTACKS := $(BUILD)/tests/attacks
+# Tests find programs by their full path, so that a test may change its folder.
+$(RUNNER): DEFINE = -DPM_TEST_BIN='"$(abspath $(BIN))"' $(if $(VIEW),,-DPM_TEST_WITHOUT='" view "')
+$(BUILD)/tests/test_runner.o: DEFINE = -DPM_TEST_ATTACKS='"$(abspath $(ATTACKS))"'
+$(TESTS): DEFINE += -Itests
+
+$(BUILD)/tests/run: $(RUNNER) $(TESTS) $(CORE) $(VISUALIZE)
+	$(LINK) -o $@ $(sort $^) $(PART_LIBS) $(GSL_LIBS)
+
+$(ATTACKS): $(BUILD)/tests/runner/attacks.o $(RUNNER) $(BUILD)/core/status.o
+	$(LINK) -o $@ $^ $(PART_LIBS)
+
+build-tests: all $(BUILD)/tests/run $(ATTACKS)
+
+test: ## build, then run the tests (ONLY=tag for some, SAN=1 with sanitizers)
+	@$(AGAIN) build-tests
+	@LSAN_OPTIONS=suppressions=$(CURDIR)/tests/leaks.supp:print_suppressions=0 \
+	  $(BUILD)/tests/run $(if $(SAN),--limit 300) $(ONLY)
+
+# --- everything in one go ---------------------------------------------------------------------
+demo: ## install what is missing, build, render the Cornell box and picture its photons
+	@$(MAKE) --no-print-directory deps
+	@$(AGAIN) all
+	@labs/demo.sh $(BIN)
+
+bench: all $(BENCHES:%=$(BUILD)/tests/bench/%) ## measure speed and memory against the promises
+	@for b in $(BENCHES); do $(BUILD)/tests/bench/$$b $(BIN) || exit; done
+
+$(BENCHES:%=$(BUILD)/tests/bench/%): %: %.o $(CORE)
+	$(LINK) -o $@ $^ $(PART_LIBS)
+
+# --- what CI does -----------------------------------------------------------------------------
+SOURCES = $(shell git ls-files '*.c' '*.h' '*.cc' '*.hh')
+TIDY_C = $(filter-out tests/%,$(filter %.c,$(SOURCES)))
+TIDY_CXX = $(if $(VTK_INCLUDE),$(filter %.cc,$(SOURCES)))
+
+check: ## all that CI does: layout, lint, both compilers, tests, sanitizers
+	@$(MAKE) --no-print-directory check-format
+	@$(MAKE) --no-print-directory check-lint
+	@$(MAKE) --no-print-directory check-builds
+	@$(MAKE) --no-print-directory test
+	@$(MAKE) --no-print-directory test SAN=1
+
+check-format:
+	clang-format --dry-run -Werror $(SOURCES)
+
+check-lint:
+	printf '%s\n' $(TIDY_C) | xargs -P $(JOBS) -I{} clang-tidy --quiet {} -- $(SPEAK_C) $(WARN)
+	printf '%s\n' $(TIDY_CXX) | xargs -r -P $(JOBS) -I{} clang-tidy --quiet {} -- $(SPEAK_CXX) $(WARN)
+	cppcheck --quiet --std=c11 --language=c --error-exitcode=1 -j $(JOBS) -Icore -Itests \
+	  --enable=warning,style,performance,portability --inline-suppr \
+	  $(TIDY_C)
+
+check-builds:
+	$(AGAIN) build-tests WERROR=1 CC=gcc CXX=g++ BUILD=build/check-gcc BIN=build/check-gcc/bin
+	$(AGAIN) build-tests WERROR=1 CC=clang CXX=clang++ BUILD=build/check-clang BIN=build/check-clang/bin
+
+tidy: ## lay out the sources as .clang-format says
+	clang-format -i $(SOURCES)
+
+format: tidy
+
+clean: ## remove everything that was built
 	rm -rf build
 
-.PHONY: all test clean
-.DELETE_ON_ERROR:
--include $(CORE:.o=.d) $(TESTS:.o=.d) $(RUNNER:.o=.d)
+# --- the machine ------------------------------------------------------------------------------
+deps: ## install the parts from elsewhere (Debian 12 or newer, Ubuntu 24.04 or newer)
+	@.ci/parts install
+
+doctor: ## list the parts: found, or the package that holds them
+	@.ci/parts doctor
+
+help: ## list these targets
+	@sed -n 's/^\([a-z-]*\):[^#]*## /\1\t/p' Makefile | while IFS="$$(printf '\t')" read -r name does; do \
+	  printf '  make %-8s %s\n' "$$name" "$$does"; done
+
+FORCE:
+.PHONY: FORCE all build-tests test demo bench check check-format check-lint check-builds tidy format \
+  clean deps doctor help
+-include $(wildcard $(BUILD)/*/*.d $(BUILD)/*/*/*.d)

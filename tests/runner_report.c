@@ -53,9 +53,9 @@ void pm_report_tap(FILE *out, const pm_test_result *result, size_t number)
     fprintf(out, "%s %zu - %s %s", good ? "ok" : "not ok", number, result->test->tag,
             result->test->title);
     if (result->verdict == PM_VERDICT_SKIPPED) {
-        fprintf(out, " # SKIP %s: %s", result->message, result->package);
+        fprintf(out, " # skip %s: %s", result->message, result->package);
     } else if (result->verdict == PM_VERDICT_TODO) {
-        fprintf(out, " # TODO %s", result->message);
+        fprintf(out, " # todo %s", result->message);
     }
     fputc('\n', out);
     if (result->verdict == PM_VERDICT_FAILED) {
