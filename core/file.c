@@ -192,3 +192,20 @@ void pm_file_abandon_all(void)
         }
     }
 }
+
+pm_status pm_file_size(const char *path, uint64_t *bytes)
+{
+    struct stat status;
+    if (stat(path, &status) != 0) {
+        return pm_status_fail(PM_EIO, "%s: cannot be read: %s", path, strerror(errno));
+    }
+    if (!S_ISREG(status.st_mode)) {
+        return pm_status_fail(PM_EIO, "%s: cannot be read: it is %s", path,
+                              S_ISDIR(status.st_mode) ? "a directory" : "no regular file");
+    }
+    if (access(path, R_OK) != 0) {
+        return pm_status_fail(PM_EIO, "%s: cannot be read: %s", path, strerror(errno));
+    }
+    *bytes = (uint64_t)status.st_size;
+    return PM_OK;
+}

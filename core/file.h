@@ -4,6 +4,7 @@
 
 #include "status.h"
 
+#include <stdint.h>
 #include <stdio.h>
 
 typedef struct {
@@ -25,5 +26,10 @@ void pm_file_abandon(pm_file *file);
 /// Removes the temporary files that are open in this process; for signal handlers and failing
 /// exits (async-signal-safe).
 void pm_file_abandon_all(void);
+
+/// Size of a file that is to be read.
+/// @param bytes  [out]
+/// @return PM_EIO with a line when it is missing, a directory or no regular file
+pm_status pm_file_size(const char *path, uint64_t *bytes);
 
 #endif
