@@ -14,6 +14,14 @@ static inline pm_ray pm_camera_ray(const pm_camera *camera, double u, double v)
                     camera->medium};
 }
 
+/// Gives the camera another film. The field of view stays along x.
+static inline void pm_camera_resize(pm_camera *camera, int width, int height)
+{
+    camera->tan_y = camera->tan_x * height / width;
+    camera->width = width;
+    camera->height = height;
+}
+
 /// Where a point is seen. False behind the camera or off the film; else the pixel.
 static inline bool pm_camera_pixel(const pm_camera *camera, pm_vec3 point, int *x, int *y)
 {

@@ -1,0 +1,46 @@
+// What programs say as JSON, by jansson: the parts that several of them share. Every function
+// that makes a value gives the caller a reference, NULL without memory; jansson's packing
+// passes NULL on, so only pm_report_end() has to look.
+#ifndef PM_REPORT_H
+#define PM_REPORT_H
+
+#include "audit.h"
+#include "options.h"
+#include "photon_pass.h"
+#include "plan.h"
+
+#include <jansson.h>
+
+/// [r, g, b] and [x, y, z].
+json_t *pm_report_spectrum(pm_spectrum spectrum);
+json_t *pm_report_vector(pm_vec3 vector);
+
+/// flux{emitted, absorbed, escaped, lost, roulette, roulette_sd, dispersion, dispersion_sd} in
+/// W.
+json_t *pm_report_flux(const pm_audit *audit);
+
+/// {"direct": {"needed": .., "why": ..}, ..}
+json_t *pm_report_plan(const pm_plan *plan);
+
+/// [{id, type, flux[3], photons}, ..]; `share` may be NULL.
+json_t *pm_report_lights(const pm_scene *scene, const uint64_t *share);
+
+/// {id: {incident[3], absorbed[3]}, ..} in W.
+json_t *pm_report_by_shape(const pm_scene *scene, const pm_audit *audit);
+
+/// {emitted, stored, power[3], refused, clamped, vanished, bytes} of one map.
+json_t *pm_report_map(const pm_photon_map *map);
+
+/// Lines about what the scene file says that is not used.
+json_t *pm_report_notes(const pm_scene *scene);
+
+/// Adds `value` under `key` and gives `object` back; NULL when either is or memory ran out.
+/// Both references are taken.
+json_t *pm_report_add(json_t *object, const char *key, json_t *value);
+
+/// Writes the object where the options want it: --json to standard output, --report to a file.
+/// Takes the reference. Doubles have 17 digits, keys the order in which they were added.
+/// @return PM_ENOMEM when `object` is NULL; PM_EIO
+pm_status pm_report_end(const pm_options *options, json_t *object);
+
+#endif
