@@ -19,8 +19,9 @@ typedef struct {
 typedef struct {
     uint32_t *bounce;
     uint32_t *light;
-    uint64_t
-        *path; // events from the light: 2 bits each, lowest first (1 S, 2 D, 3 V), as far as 32
+    uint64_t *path; // events from the light: 2 bits each, lowest first (1 S, 2 D, 3 V), the
+                    // first 32 of them
+    float (*normal)[3];
 } pm_photon_columns;
 
 /// Writes beside `path` and renames. The map may be balanced or not; the file says which.
@@ -31,8 +32,15 @@ pm_status pm_photon_file_write(const char *path, const pm_photon_map *map,
 /// Reads a file back. A file that is cut, altered by a bit, of another version, a mesh, or no
 /// PLY is refused with a line that says which.
 /// @param map      [out] untouched unless PM_OK; free with pm_photon_map_free()
-/// @param columns  [out] may be NULL; arrays are the caller's to free
+/// @param columns  [out] may be NULL; NULL where the file has none. Free with
+///                 pm_photon_columns_free()
+/// @return PM_EIO, PM_EINPUT, PM_ENOMEM
 pm_status pm_photon_file_read(const char *path, pm_photon_map *map, pm_photon_file_info *info,
                               pm_photon_columns *columns);
+
+void pm_photon_columns_free(pm_photon_columns *columns);
+
+/// Whether `path` can be read and begins like a photon file: for refusing one as a mesh.
+bool pm_photon_file_is(const char *path);
 
 #endif
