@@ -21,8 +21,7 @@ typedef struct {
     pm_emission emission;
     pm_tracing tracing; // without a sink
     pm_photon_map *map;
-    pm_audit *audit;
-    uint64_t emitted;
+    pm_pass_report *report;
     bool done; // nothing more is wanted
     pm_status status;
     char message[1024];
@@ -34,6 +33,8 @@ typedef struct {
     pm_start starts[CHUNK];
     pm_photon_map part;
     pm_audit audit;
+    pm_spectrum deposited;
+    double emit_cpu, trace_cpu;
 } pm_pass_worker;
 
 static pm_status worker_deposit(void *context, const pm_deposit *deposit)
@@ -43,6 +44,7 @@ static pm_status worker_deposit(void *context, const pm_deposit *deposit)
     if (tap->deposit != NULL) {
         PM_TRY(tap->deposit(tap->context, deposit));
     }
+    worker->deposited = pm_spectrum_add(worker->deposited, deposit->power);
     return pm_store_push(&worker->part, deposit);
 }
 
@@ -64,16 +66,27 @@ static pm_status trace_range(const pm_pass *pass, pm_pass_worker *worker, uint64
     worker->part.count = 0;
     worker->part.refused = worker->part.clamped = worker->part.vanished = 0;
     pm_audit_clear(&worker->audit);
+    worker->deposited = pm_gray(0.0);
+    double start = pm_seconds_now();
     PM_TRY(pm_emit_photons(&pass->emission, first, count, worker->starts));
     pm_audit_emit(&worker->audit, worker->starts, count);
-    return pm_trace_photons(&tracing, worker->starts, count);
+    double emitted = pm_seconds_now();
+    pm_status status = pm_trace_photons(&tracing, worker->starts, count);
+    worker->emit_cpu += emitted - start;
+    worker->trace_cpu += pm_seconds_now() - emitted;
+    return status;
 }
 
 static pm_status append(pm_pass *pass, const pm_pass_worker *worker, uint32_t count)
 {
-    pm_audit_add(pass->audit, &worker->audit);
-    pass->emitted += count;
-    return pm_photon_map_append(pass->map, &worker->part);
+    pm_pass_report *report = pass->report;
+    double start = pm_seconds_now();
+    pm_audit_add(&report->audit, &worker->audit);
+    report->deposited = pm_spectrum_add(report->deposited, worker->deposited);
+    report->emitted += count;
+    pm_status status = pm_photon_map_append(pass->map, &worker->part);
+    report->store_cpu += pm_seconds_now() - start;
+    return status;
 }
 
 /// The chunk in which the wanted number is reached, photon by photon.
@@ -138,7 +151,7 @@ static pm_status worker_make(const pm_pass *pass, pm_pass_worker **out)
     if (worker == NULL) {
         return PM_FAIL(PM_ENOMEM, "no memory to trace in");
     }
-    pm_status status = pm_audit_make(pass->audit->shape_count, &worker->audit);
+    pm_status status = pm_audit_make(pass->report->audit.shape_count, &worker->audit);
     if (status != PM_OK) {
         free(worker);
         return status;
@@ -176,6 +189,13 @@ static void run_chunks(pm_pass *pass)
         for (int64_t chunk = 0; chunk < chunks; chunk++) {
             if (pass->status != PM_ENOMEM) {
                 run_chunk(pass, worker, (uint64_t)chunk);
+            }
+        }
+        if (worker != NULL) {
+#pragma omp critical
+            {
+                pass->report->emit_cpu += worker->emit_cpu;
+                pass->report->trace_cpu += worker->trace_cpu;
             }
         }
         worker_free(worker);
@@ -230,7 +250,7 @@ static pm_status outcome(const pm_pass *pass)
         return pm_status_fail(
             PM_ELIMIT, "%s: %llu photons were to be stored, but %llu emitted ones gave only %u",
             pass->emission.scene->path, (unsigned long long)settings->stored,
-            (unsigned long long)pass->emitted, pass->map->count);
+            (unsigned long long)pass->report->emitted, pass->map->count);
     }
     return PM_OK;
 }
@@ -241,16 +261,16 @@ static pm_status run(const pm_intersector *world, pm_map_kind kind,
                      pm_pass_report *report)
 {
     double start = pm_seconds_now();
-    pm_pass pass = {.settings = settings, .map = map, .audit = &report->audit};
+    pm_pass pass = {.settings = settings, .map = map, .report = report};
     prepare(&pass, world, kind);
     PM_TRY(pm_emit_share(world->scene, settings->count, report->share));
     pass.emission.share = report->share;
     run_chunks(&pass);
     PM_TRY(outcome(&pass));
     pm_photon_map_trim(map);
-    PM_TRY(pm_store_scale(map, pass.emitted));
-    pm_audit_scale(&report->audit, 1.0 / (double)pass.emitted);
-    report->emitted = pass.emitted;
+    PM_TRY(pm_store_scale(map, report->emitted));
+    pm_audit_scale(&report->audit, 1.0 / (double)report->emitted);
+    report->deposited = pm_spectrum_scale(report->deposited, 1.0 / (double)report->emitted);
     report->deposits = (uint64_t)map->count + map->refused;
     report->seconds = pm_seconds_now() - start;
     return PM_OK;

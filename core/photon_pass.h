@@ -23,9 +23,11 @@ typedef struct {
 typedef struct {
     uint64_t emitted;
     uint64_t deposits;
-    uint64_t *share; // photons per light of a full pass; freed by pm_pass_report_free()
-    pm_audit audit;  // unscaled powers divided by `emitted`: [W]
-    double seconds;
+    uint64_t *share;       // photons per light of a full pass; freed by pm_pass_report_free()
+    pm_audit audit;        // unscaled powers divided by `emitted`: [W]
+    pm_spectrum deposited; // [W] handed over, before packing
+    double seconds;        // on the wall
+    double emit_cpu, trace_cpu, store_cpu; // [s] summed over the threads
 } pm_pass_report;
 
 /// Emits, traces, stores and scales the map of `kind` (global or caustic).

@@ -195,6 +195,7 @@ pm_status pm_render_image(const pm_intersector *world, const pm_render_settings 
                           const pm_render_maps *maps, pm_image *image, pm_eye_report *report)
 {
     double start = pm_seconds_now();
+    double cpu_start = pm_cpu_seconds_now();
     pm_image made;
     PM_TRY(pm_picture_make(world->scene->camera.width, world->scene->camera.height, &made));
     pm_eye_report counts = {0};
@@ -212,6 +213,7 @@ pm_status pm_render_image(const pm_intersector *world, const pm_render_settings 
         return status;
     }
     counts.seconds = pm_seconds_now() - start;
+    counts.cpu = pm_cpu_seconds_now() - cpu_start;
     *image = made;
     *report = counts;
     return PM_OK;

@@ -27,13 +27,14 @@ typedef struct {
     pm_plan plan;
     bool has[PM_MAP_COUNT];
     pm_photon_map map[PM_MAP_COUNT];
-    pm_pass_report pass[PM_MAP_COUNT]; // zeroed where a stored map was given
-    double balance_seconds[PM_MAP_COUNT];
+    pm_pass_report pass[PM_MAP_COUNT];    // zeroed where a stored map was given
+    double balance_seconds[PM_MAP_COUNT]; // CPU and wall: one thread
 } pm_render_maps;
 
 /// What the eye pass did.
 typedef struct {
-    double seconds;
+    double seconds;   // on the wall
+    double cpu;       // [s] of all threads
     uint64_t lookups; // in the global map
     uint64_t cut;     // eye paths ended after too many S events in a row
 } pm_eye_report;

@@ -1,0 +1,20 @@
+// What `render` says when it is done: a table for people, one JSON object for programs.
+#ifndef PM_RENDER_REPORT_H
+#define PM_RENDER_REPORT_H
+
+#include "options.h"
+#include "render.h"
+
+/// After a picture: per stage CPU time, photons, power in and out; then the audit's verdict.
+/// @return the audit's refusal too (pm_audit_check)
+pm_status pm_render_report(const pm_options *options, const pm_scene *scene,
+                           const pm_render_settings *settings, const pm_render_maps *maps,
+                           const pm_eye_report *eye);
+
+/// For --explain: the plan, and what each part of it is for.
+pm_status pm_render_report_plan(const pm_options *options, const pm_plan *plan);
+
+/// For --check: that the scene is fine, and what it holds.
+pm_status pm_render_report_check(const pm_options *options, const pm_scene *scene);
+
+#endif

@@ -1,0 +1,119 @@
+// emission: photons leave the lights, and nothing more.
+#include "emit.h"
+#include "file.h"
+#include "interrupt.h"
+#include "program.h"
+#include "report.h"
+#include "world.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#define BATCH 1024u
+
+static const pm_options_program program = {
+    .name = "emission",
+    .does = "Emits photons from the lights of a scene and says how many came from where.",
+    .positional = "SCENE",
+    .positional_least = 1,
+    .positional_most = 1,
+    .options = "n dump report",
+    .notes = "--dump writes the rays as ox,oy,oz,dx,dy,dz,r,g,b,light; r,g,b is the power [W].",
+};
+
+/// What was emitted.
+typedef struct {
+    const pm_options *options;
+    pm_world world;
+    uint64_t count;
+    uint64_t *share;
+    pm_spectrum power; // [W]
+    pm_file dump;
+} pm_job;
+
+static void write_ray(const pm_job *job, const pm_start *start)
+{
+    pm_vec3 from = pm_vec_add(start->ray.origin, job->world.scene.center);
+    pm_vec3 way = start->ray.direction;
+    pm_spectrum watts = pm_spectrum_scale(start->power, 1.0 / (double)job->count);
+    fprintf(job->dump.stream, "%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%u\n", from.x,
+            from.y, from.z, way.x, way.y, way.z, watts.c[0], watts.c[1], watts.c[2],
+            start->light);
+}
+
+static pm_status emit_all(pm_job *job)
+{
+    pm_emission emission = {
+        .scene = &job->world.scene,
+        .source = {job->options->seed, PM_STREAM_GLOBAL, 0},
+        .count = job->count,
+        .share = job->share,
+    };
+    pm_start starts[BATCH];
+    for (uint64_t first = 0; first < job->count; first += BATCH) {
+        uint64_t left = job->count - first;
+        uint32_t batch = left < BATCH ? (uint32_t)left : BATCH;
+        PM_TRY(pm_emit_photons(&emission, first, batch, starts));
+        for (uint32_t i = 0; i < batch; i++) {
+            job->power = pm_spectrum_add(job->power, starts[i].power);
+            if (job->dump.stream != NULL) {
+                write_ray(job, &starts[i]);
+            }
+        }
+        PM_TRY(pm_interrupt_check());
+    }
+    job->power = pm_spectrum_scale(job->power, 1.0 / (double)job->count);
+    return PM_OK;
+}
+
+static pm_status report(const pm_job *job)
+{
+    const pm_scene *scene = &job->world.scene;
+    for (int i = 0; i < scene->light_count && !job->options->json; i++) {
+        const pm_light *light = &scene->lights[i];
+        printf("%-20s %12llu photons %14.6g W\n", light->id, (unsigned long long)job->share[i],
+               pm_spectrum_mean(light->flux));
+    }
+    json_t *object =
+        pm_report_add(json_object(), "lights", pm_report_lights(scene, job->share));
+    object = pm_report_add(object, "power_sum", pm_report_spectrum(job->power));
+    object =
+        pm_report_add(object, "projection", json_pack("{s:i,s:i}", "cells", 0, "active", 0));
+    return pm_report_end(job->options, object);
+}
+
+static pm_status run(pm_job *job)
+{
+    const pm_options *options = job->options;
+    PM_TRY(pm_world_open(options, false, &job->world));
+    job->count = options->photons[PM_MAP_GLOBAL];
+    job->share = calloc((size_t)job->world.scene.light_count, sizeof *job->share);
+    if (job->share == NULL) {
+        return PM_FAIL(PM_ENOMEM, "no memory for the lights");
+    }
+    PM_TRY(pm_emit_share(&job->world.scene, job->count, job->share));
+    if (options->dump != NULL) {
+        PM_TRY(pm_file_begin(options->dump, &job->dump));
+        fputs("ox,oy,oz,dx,dy,dz,r,g,b,light\n", job->dump.stream);
+    }
+    PM_TRY(emit_all(job));
+    if (options->dump != NULL) {
+        PM_TRY(pm_file_commit(&job->dump));
+    }
+    return report(job);
+}
+
+int main(int argc, char **argv)
+{
+    pm_options options;
+    int code;
+    if (!pm_program_start(argc, argv, &program, &options, &code)) {
+        return code;
+    }
+    pm_job job = {.options = &options};
+    pm_status status = run(&job);
+    pm_file_abandon(&job.dump);
+    free(job.share);
+    pm_world_close(&job.world);
+    return pm_program_end(status);
+}

@@ -1,0 +1,145 @@
+// render: a scene file in, a picture with its layers out.
+#include "exr.h"
+#include "photon_file.h"
+#include "photon_map.h"
+#include "png.h"
+#include "program.h"
+#include "render.h"
+#include "render_report.h"
+#include "world.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static const pm_options_program program = {
+    .name = "render",
+    .does = "Renders a scene by photon mapping: direct light, mirrors and glass, caustics, and"
+            " indirect light, each in a layer of its own.",
+    .positional = "SCENE",
+    .positional_least = 1,
+    .positional_most = 1,
+    .options = "o png exposure size spp photons global-photons caustic-photons gather k r shape"
+               " flatness filter kernel-constants preset packing roulette max-bounces view only"
+               " map explain check report",
+};
+
+/// What stays open while the program works.
+typedef struct {
+    const pm_options *options;
+    pm_world world;
+    pm_render_settings settings;
+    pm_render_maps maps;
+    pm_image image;
+    pm_eye_report eye;
+} pm_job;
+
+/// Deals --photons out to the maps that the scene needs.
+static void split_photons(const pm_plan *plan, uint64_t total, uint64_t photons[PM_MAP_COUNT])
+{
+    uint64_t needed = 0;
+    for (pm_map_kind kind = 0; kind < PM_MAP_COUNT; kind++) {
+        needed += pm_plan_needs_map(plan, kind);
+    }
+    for (pm_map_kind kind = 0; kind < PM_MAP_COUNT && needed > 0; kind++) {
+        photons[kind] = 0;
+        if (pm_plan_needs_map(plan, kind)) {
+            photons[kind] = total / needed--;
+            total -= photons[kind];
+        }
+    }
+}
+
+static pm_render_settings settings_of(const pm_options *options, const pm_plan *plan)
+{
+    pm_render_settings settings = pm_render_defaults();
+    settings.seed = options->seed;
+    memcpy(settings.photons, options->photons, sizeof settings.photons);
+    if (options->photons_total > 0) {
+        split_photons(plan, options->photons_total, settings.photons);
+    }
+    settings.stored = options->stored;
+    settings.roulette = options->roulette;
+    settings.max_bounces = options->max_bounces;
+    settings.unpacked = options->unpacked;
+    settings.light.estimate = options->estimate;
+    settings.light.rays = options->gather;
+    settings.light.spp = options->spp;
+    settings.only = options->only;
+    settings.view_photons = options->view_photons;
+    return settings;
+}
+
+/// Takes one stored map in place of tracing it.
+static pm_status load_map(pm_job *job, const char *path)
+{
+    pm_photon_map map;
+    pm_photon_file_info info;
+    PM_TRY(pm_photon_file_read(path, &map, &info, NULL));
+    pm_status status = PM_OK;
+    if (info.scene_hash != job->world.scene.hash) {
+        status = pm_status_fail(PM_EINPUT, "%s: was traced in another scene than %s", path,
+                                job->world.scene.path);
+    } else if (job->maps.has[map.kind]) {
+        status = pm_status_fail(PM_EINPUT, "%s: a map of this kind was given already", path);
+    }
+    if (status != PM_OK) {
+        pm_photon_map_free(&map);
+        return status;
+    }
+    job->maps.map[map.kind] = map;
+    job->maps.has[map.kind] = true;
+    return PM_OK;
+}
+
+static pm_status make_picture(pm_job *job)
+{
+    const pm_options *options = job->options;
+    if (options->output == NULL && options->png == NULL) {
+        return pm_status_fail(
+            PM_EINPUT, "render: say where the picture goes: -o FILE.exr or --png FILE.png");
+    }
+    for (int i = 0; i < options->map_count; i++) {
+        PM_TRY(load_map(job, options->map[i]));
+    }
+    PM_TRY(pm_render_make_maps(&job->world.rays, &job->settings, &job->maps));
+    PM_TRY(
+        pm_render_image(&job->world.rays, &job->settings, &job->maps, &job->image, &job->eye));
+    if (options->output != NULL) {
+        PM_TRY(pm_exr_write(options->output, &job->image));
+    }
+    if (options->png != NULL) {
+        PM_TRY(pm_png_write(options->png, &job->image, options->exposure));
+    }
+    return PM_OK;
+}
+
+static pm_status run(pm_job *job)
+{
+    const pm_options *options = job->options;
+    PM_TRY(pm_world_open(options, true, &job->world));
+    pm_plan plan = pm_plan_scene(&job->world.scene);
+    job->settings = settings_of(options, &plan);
+    if (options->check_scene) {
+        return pm_render_report_check(options, &job->world.scene);
+    }
+    if (options->explain) {
+        return pm_render_report_plan(options, &plan);
+    }
+    PM_TRY(make_picture(job));
+    return pm_render_report(options, &job->world.scene, &job->settings, &job->maps, &job->eye);
+}
+
+int main(int argc, char **argv)
+{
+    pm_options options;
+    int code;
+    if (!pm_program_start(argc, argv, &program, &options, &code)) {
+        return code;
+    }
+    pm_job job = {.options = &options};
+    pm_status status = run(&job);
+    pm_image_free(&job.image);
+    pm_render_maps_free(&job.maps);
+    pm_world_close(&job.world);
+    return pm_program_end(status);
+}
