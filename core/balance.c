@@ -7,142 +7,15 @@
 // @source Jensen 2001, ch. 6; Bentley, "Multidimensional binary search trees", CACM 18(9), 1975
 #include "balance.h"
 
+#include "select.h"
+
 #include <stddef.h>
 
 #define UNPLACED 3u // in the axis bits: not yet in heap order
 
-// Selection falls back to guaranteed pivots after looking at this many photons per photon.
-#define PATIENCE 12
-
 typedef struct {
     float low[3], high[3];
 } box;
-
-/// A run of photons in lockstep with what packing rounded away.
-typedef struct {
-    pm_photon *photons;
-    pm_photon_exact *exact; // or NULL
-} records;
-
-static void swap(const records *r, uint32_t a, uint32_t b)
-{
-    pm_photon photon = r->photons[a];
-    r->photons[a] = r->photons[b];
-    r->photons[b] = photon;
-    if (r->exact != NULL) {
-        pm_photon_exact exact = r->exact[a];
-        r->exact[a] = r->exact[b];
-        r->exact[b] = exact;
-    }
-}
-
-static float coordinate(const records *r, uint32_t index, int axis)
-{
-    return r->photons[index].position[axis];
-}
-
-// --- selection -------------------------------------------------------------------------------
-
-/// Which of three indices has the middle coordinate.
-static uint32_t median_of_3(const records *r, uint32_t a, uint32_t b, uint32_t c, int axis)
-{
-    float x = coordinate(r, a, axis);
-    float y = coordinate(r, b, axis);
-    float z = coordinate(r, c, axis);
-    if (x < y) {
-        return y < z ? b : x < z ? c : a;
-    }
-    return x < z ? a : y < z ? c : b;
-}
-
-/// A guess at the median of low .. high: the middle of three middles, spread evenly.
-static uint32_t ninther(const records *r, uint32_t low, uint32_t high, int axis)
-{
-    uint32_t step = (high - low) / 8;
-    uint32_t middle = low + (high - low) / 2;
-    if (step == 0) {
-        return median_of_3(r, low, middle, high, axis);
-    }
-    uint32_t a = median_of_3(r, low, low + step, low + 2 * step, axis);
-    uint32_t b = median_of_3(r, middle - step, middle, middle + step, axis);
-    uint32_t c = median_of_3(r, high - 2 * step, high - step, high, axis);
-    return median_of_3(r, a, b, c, axis);
-}
-
-/// Splits low .. high by `pivot`; afterwards low .. *left are not above it, *right .. high not
-/// below, and what lies between equals it. Stopping at equal coordinates halves a run of them.
-static void partition(const records *r, uint32_t low, uint32_t high, float pivot, int axis,
-                      uint32_t *left, uint32_t *right)
-{
-    int64_t i = low;
-    int64_t j = high;
-    while (i <= j) {
-        while (coordinate(r, (uint32_t)i, axis) < pivot) {
-            i++;
-        }
-        while (coordinate(r, (uint32_t)j, axis) > pivot) {
-            j--;
-        }
-        if (i <= j) {
-            swap(r, (uint32_t)i, (uint32_t)j);
-            i++;
-            j--;
-        }
-    }
-    *left = (uint32_t)(j < 0 ? 0 : j);
-    *right = (uint32_t)i;
-}
-
-static void insertion_sort(const records *r, uint32_t low, uint32_t high, int axis)
-{
-    for (uint32_t i = low + 1; i <= high; i++) {
-        for (uint32_t j = i; j > low && coordinate(r, j, axis) < coordinate(r, j - 1, axis);
-             j--) {
-            swap(r, j, j - 1);
-        }
-    }
-}
-
-static void select_place(const records *r, uint32_t low, uint32_t high, uint32_t place,
-                         int axis);
-
-/// A pivot that leaves at least three tenths on either side: the median of the medians of five.
-/// @source Blum et al., "Time bounds for selection", JCSS 7(4), 1973
-static uint32_t median_of_medians(const records *r, uint32_t low, uint32_t high, int axis)
-{
-    uint32_t groups = (high - low + 1) / 5;
-    for (uint32_t g = 0; g < groups; g++) {
-        uint32_t first = low + 5 * g;
-        insertion_sort(r, first, first + 4, axis);
-        swap(r, low + g, first + 2);
-    }
-    uint32_t middle = low + groups / 2;
-    select_place(r, low, low + groups - 1, middle, axis);
-    return middle;
-}
-
-/// Puts the photon of rank `place` among low .. high there, the smaller before it.
-static void select_place(const records *r, uint32_t low, uint32_t high, uint32_t place,
-                         int axis)
-{
-    uint64_t patience = (uint64_t)PATIENCE * (high - low + 1);
-    while (high - low >= 8) {
-        uint64_t size = (uint64_t)high - low + 1;
-        bool patient = patience >= size;
-        patience -= patient ? size : 0;
-        uint32_t guess =
-            patient ? ninther(r, low, high, axis) : median_of_medians(r, low, high, axis);
-        uint32_t left;
-        uint32_t right;
-        partition(r, low, high, coordinate(r, guess, axis), axis, &left, &right);
-        if (place > left && place < right) {
-            return;
-        }
-        high = place <= left ? left : high;
-        low = place >= right ? right : low;
-    }
-    insertion_sort(r, low, high, axis);
-}
 
 // --- building --------------------------------------------------------------------------------
 
@@ -190,15 +63,15 @@ static pm_status bounds(const pm_photon_map *map, box *around)
     return PM_OK;
 }
 
-static void arrange(const records *r, uint32_t first, uint32_t count, box around)
+static void arrange(const pm_photon_run *r, uint32_t first, uint32_t count, box around)
 {
     while (count > 1) {
         int axis = longest_side(&around);
         uint32_t left = pm_balance_left(count);
         uint32_t median = first + left;
-        select_place(r, first, first + count - 1, median, axis);
+        pm_select_place(r, first, first + count - 1, median, axis);
         box lower = around;
-        lower.high[axis] = around.low[axis] = coordinate(r, median, axis);
+        lower.high[axis] = around.low[axis] = r->photons[median].position[axis];
         arrange(r, first, left, lower);
         first = median + 1;
         count -= left + 1;
@@ -217,7 +90,7 @@ static uint32_t in_order_place(uint32_t node, uint32_t count, int last_depth)
     return (uint32_t)(place - (before > last ? before - last : 0));
 }
 
-static void to_heap_order(const records *r, uint32_t count)
+static void to_heap_order(const pm_photon_run *r, uint32_t count)
 {
     int last_depth = 31 - __builtin_clz(count);
     for (uint32_t i = 0; i < count; i++) {
@@ -253,7 +126,7 @@ static void to_heap_order(const records *r, uint32_t count)
     }
 }
 
-static void set_axes(const records *r, uint64_t node, uint32_t count, box around)
+static void set_axes(const pm_photon_run *r, uint64_t node, uint32_t count, box around)
 {
     while (node <= count) {
         int axis = longest_side(&around);
@@ -275,7 +148,7 @@ pm_status pm_balance_build(pm_photon_map *map)
     box around;
     PM_TRY(bounds(map, &around));
     if (map->count > 0 && !map->balanced) {
-        records all = {map->photons, map->exact};
+        pm_photon_run all = {map->photons, map->exact};
         arrange(&all, 0, map->count, around);
         to_heap_order(&all, map->count);
         set_axes(&all, 1, map->count, around);
@@ -298,9 +171,8 @@ static void sift_down(pm_neighbour *heap, uint32_t count, uint64_t hole, pm_neig
 {
     uint64_t child = 2 * hole + 1;
     while (child < count) {
-        if (child + 1 < count && heap[child + 1].distance2 > heap[child].distance2) {
-            child++;
-        }
+        uint64_t other = child + 1 < count ? child + 1 : child;
+        child += heap[other].distance2 > heap[child].distance2 ? 1 : 0;
         if (heap[child].distance2 <= item.distance2) {
             break;
         }
@@ -384,6 +256,7 @@ pm_status pm_balance_nearest(const pm_photon_map *map, const pm_search *search,
         while (node <= map->count) {
             const pm_photon *photon = &map->photons[node - 1];
             looked_at++;
+            __builtin_prefetch(&map->photons[2 * node - 1]);
             consider(search, photon, (uint32_t)(node - 1), &held);
             int axis = photon->flags & PM_PHOTON_AXIS;
             double beyond = pm_vec_axis(search->at, axis) - (double)photon->position[axis];

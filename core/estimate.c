@@ -55,17 +55,12 @@ static pm_status check(const pm_photon_map *map, const pm_estimate_settings *set
 // --- which photons count
 // -----------------------------------------------------------------------
 
-static bool faces(const pm_photon *photon, pm_vec3 normal)
-{
-    pm_vec3 its = pm_normal_decode(photon->flags >> PM_PHOTON_NORMAL_SHIFT);
-    return pm_vec_dot(its, normal) >= SIDE_SLACK; // without a normal (zero) everything passes
-}
-
 bool pm_estimate_accept(const void *context, const pm_photon *photon, double *distance2)
 {
     const pm_estimate_query *query = context;
     pm_vec3 normal = query->point.normal;
-    if ((photon->flags & query->skip) != 0 || !faces(photon, normal)) {
+    if ((photon->flags & query->skip) != 0 ||
+        !pm_normal_within(photon->flags >> PM_PHOTON_NORMAL_SHIFT, normal, SIDE_SLACK)) {
         return false;
     }
     pm_vec3 away = pm_vec((double)photon->position[0] - query->point.at.x,
@@ -133,6 +128,16 @@ static pm_status search(const pm_photon_map *map, const pm_estimate_settings *se
 /// A photon's share by direction: bsdf, phase function, or 1.
 typedef pm_spectrum (*response_fn)(const void *context, const pm_photon_view *photon);
 
+static pm_spectrum answer(const pm_photon_map *map, uint32_t index, response_fn response,
+                          const void *context)
+{
+    if (response == NULL) {
+        return pm_store_power(map, index);
+    }
+    pm_photon_view photon = pm_store_unpack(map, index);
+    return pm_spectrum_mul(photon.power, response(context, &photon));
+}
+
 /// Sums response * weight * power over the photons that count.
 static pm_status sum_weighed(const pm_photon_map *map, const pm_estimate_settings *settings,
                              const pm_neighbour *nearest, const extent *area,
@@ -144,14 +149,10 @@ static pm_status sum_weighed(const pm_photon_map *map, const pm_estimate_setting
             continue;
         }
         double weight;
-        PM_TRY(pm_filter_weight(settings->filter, settings->constants,
-                                fmin(nearest[i].distance2 / area->radius2, 1.0), &weight));
-        pm_photon_view photon = pm_store_unpack(map, nearest[i].index);
-        pm_spectrum part = pm_spectrum_scale(photon.power, weight);
-        if (response != NULL) {
-            part = pm_spectrum_mul(part, response(context, &photon));
-        }
-        *sum = pm_spectrum_add(*sum, part);
+        double u = nearest[i].distance2 / area->radius2;
+        PM_TRY(pm_filter_weight(settings->filter, settings->constants, u, &weight));
+        pm_spectrum power = answer(map, nearest[i].index, response, context);
+        *sum = pm_spectrum_add(*sum, pm_spectrum_scale(power, weight));
     }
     return PM_OK;
 }

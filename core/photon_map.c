@@ -132,7 +132,7 @@ pm_spectrum pm_photon_map_power(const pm_photon_map *map)
 {
     pm_spectrum sum = pm_gray(0.0);
     for (uint32_t i = 0; i < map->count; i++) {
-        sum = pm_spectrum_add(sum, pm_store_unpack(map, i).power);
+        sum = pm_spectrum_add(sum, pm_store_power(map, i));
     }
     return sum;
 }
@@ -193,4 +193,16 @@ pm_vec3 pm_normal_decode(uint16_t code)
         return pm_vec(0.0, 0.0, 0.0);
     }
     return pm_vec_normalize(unfold(code / 64 - LATTICE, code % 64 - LATTICE));
+}
+
+bool pm_normal_within(uint16_t code, pm_vec3 direction, double least)
+{
+    if (code == NO_NORMAL) {
+        return true;
+    }
+    pm_vec3 unscaled = unfold(code / 64 - LATTICE, code % 64 - LATTICE);
+    double along = pm_vec_dot(unscaled, direction);
+    // Most are clear without the root: lattice points are 31 / sqrt(3) to 31 long.
+    bool clear = along >= 0.0 && least <= 0.0;
+    return clear || along >= least * pm_vec_length(unscaled);
 }

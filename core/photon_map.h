@@ -35,4 +35,8 @@ pm_spectrum pm_photon_map_power(const pm_photon_map *map);
 uint16_t pm_normal_encode(pm_vec3 normal);
 pm_vec3 pm_normal_decode(uint16_t code);
 
+/// Whether the cosine between a coded normal and the unit `direction` is at least `least`; no
+/// normal always is. Cheaper than decoding.
+bool pm_normal_within(uint16_t code, pm_vec3 direction, double least);
+
 #endif

@@ -164,25 +164,33 @@ static pm_vec3 vec_of(const float v[3])
     return pm_vec((double)v[0], (double)v[1], (double)v[2]);
 }
 
+static pm_vec3 direction_of(const pm_photon_map *map, uint32_t index)
+{
+    return map->exact != NULL ? vec_of(map->exact[index].direction)
+                              : unpack_direction(map->photons[index].direction);
+}
+
+pm_spectrum pm_store_power(const pm_photon_map *map, uint32_t index)
+{
+    double scale = map->scaled ? map->scale : 1.0;
+    if (map->exact == NULL) {
+        return pm_spectrum_scale(unpack_power(map->photons[index].power), scale);
+    }
+    const float *power = map->exact[index].power;
+    return pm_rgb((double)power[0] * scale, (double)power[1] * scale, (double)power[2] * scale);
+}
+
 pm_photon_view pm_store_unpack(const pm_photon_map *map, uint32_t index)
 {
     const pm_photon *photon = &map->photons[index];
-    pm_photon_view view = {
+    return (pm_photon_view){
         .position = vec_of(photon->position),
+        .direction = direction_of(map, index),
         .normal = pm_normal_decode(photon->flags >> PM_PHOTON_NORMAL_SHIFT),
+        .power = pm_store_power(map, index),
         .caustic = (photon->flags & PM_PHOTON_CAUSTIC) != 0,
         .first = (photon->flags & PM_PHOTON_FIRST) != 0,
     };
-    if (map->exact != NULL) {
-        pm_vec3 power = vec_of(map->exact[index].power);
-        view.power = pm_rgb(power.x, power.y, power.z);
-        view.direction = vec_of(map->exact[index].direction);
-    } else {
-        view.power = unpack_power(photon->power);
-        view.direction = unpack_direction(photon->direction);
-    }
-    view.power = pm_spectrum_scale(view.power, map->scaled ? map->scale : 1.0);
-    return view;
 }
 
 /// What `photon` rounded away. Powers out of the packed range are out of this one, too: the

@@ -24,6 +24,9 @@ pm_status pm_store_pack(const pm_deposit *deposit, pm_photon *photon, int *power
 /// A packed byte decodes to the middle of its bin, a power byte of 0 to 0.
 pm_photon_view pm_store_unpack(const pm_photon_map *map, uint32_t index);
 
+/// The power of that photon alone [W], scaled.
+pm_spectrum pm_store_power(const pm_photon_map *map, uint32_t index);
+
 /// Appends a deposit, growing the map by a quarter when it is full. A deposit that
 /// pm_store_pack() refuses is counted in map->refused and not stored.
 ///
