@@ -1,0 +1,215 @@
+// The scene, faintly: what is drawn on it has to stay the brightest thing in the picture.
+#include "core.hh"
+#include "draw.h"
+#include "drawing.hh"
+#include "figure.hh"
+
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace {
+
+const int sides = 72; // of a circle
+const double edge_opacity = 0.55;
+const double face_opacity = 0.10;
+const double crease_cosine = 0.87; // edges between flatter triangles are not drawn
+
+/// What a shape is, for its colour and its word.
+struct look {
+    pm_colour edge, face;
+    const char *word; // NULL: none
+};
+
+look look_of(const pm_scene *scene, const pm_shape *shape)
+{
+    pm_colour plain = pm_colour_named(PM_COLOUR_GREY);
+    if (shape->light != PM_NONE) {
+        pm_colour yellow = pm_colour_named(PM_COLOUR_YELLOW);
+        return {yellow, yellow, "light"};
+    }
+    const int side = shape->material[0] != PM_NONE ? 0 : 1;
+    if (shape->material[side] == PM_NONE) {
+        return {plain, plain, nullptr};
+    }
+    const pm_material *material = &scene->materials[shape->material[side]];
+    const double *rho = material->reflectance.c;
+    switch (material->type) {
+    case PM_BSDF_DIFFUSE:
+        return {plain, pm_colour_linear(rho[0], rho[1], rho[2]), nullptr};
+    case PM_BSDF_DIELECTRIC:
+        return {pm_colour_named(PM_COLOUR_SKY), pm_colour_named(PM_COLOUR_SKY), "glass"};
+    case PM_BSDF_CONDUCTOR:
+        return {pm_colour_named(PM_COLOUR_WHITE), plain, "mirror"};
+    case PM_BSDF_NULL:
+        break;
+    }
+    return {pm_colour_dim(plain, 0.6), pm_colour_dim(plain, 0.6), nullptr};
+}
+
+std::vector<pm_vec3> circle(pm_vec3 center, pm_vec3 normal, double radius)
+{
+    pm_frame frame = pm_frame_around(normal);
+    std::vector<pm_vec3> rim;
+    for (int i = 0; i < sides; i++) {
+        double phi = 2.0 * PM_PI * i / sides;
+        pm_vec3 out = pm_vec_add(pm_vec_scale(frame.s, std::cos(phi)),
+                                 pm_vec_scale(frame.t, std::sin(phi)));
+        rim.push_back(pm_vec_along(center, out, radius));
+    }
+    return rim;
+}
+
+pm_vec3 draw_rectangle(pm_drawing *drawing, const pm_shape *s, const look &l)
+{
+    pm_vec3 right = pm_vec_add(s->corner, s->edge[0]);
+    const std::vector<pm_vec3> rim = {s->corner, right, pm_vec_add(right, s->edge[1]),
+                                      pm_vec_add(s->corner, s->edge[1])};
+    drawing->polygon(rim, l.face, face_opacity);
+    drawing->outline(rim, l.edge, edge_opacity);
+    return pm_vec_scale(pm_vec_add(rim[0], rim[2]), 0.5);
+}
+
+pm_vec3 draw_disk(pm_drawing *drawing, const pm_shape *s, const look &l)
+{
+    const std::vector<pm_vec3> rim = circle(s->center, s->axis, s->radius);
+    drawing->polygon(rim, l.face, face_opacity);
+    drawing->outline(rim, l.edge, edge_opacity);
+    return s->center;
+}
+
+pm_vec3 draw_cylinder(pm_drawing *drawing, const pm_shape *s, const look &l)
+{
+    const std::vector<pm_vec3> near = circle(s->center, s->axis, s->radius);
+    pm_vec3 end = pm_vec_along(s->center, s->axis, s->length);
+    const std::vector<pm_vec3> far = circle(end, s->axis, s->radius);
+    for (size_t i = 0; i < sides; i++) {
+        size_t next = (i + 1) % sides;
+        const pm_vec3 side[4] = {near[i], near[next], far[next], far[i]};
+        drawing->quad(side, l.face, face_opacity);
+    }
+    drawing->outline(near, l.edge, edge_opacity);
+    drawing->outline(far, l.edge, edge_opacity);
+    return pm_vec_scale(pm_vec_add(s->center, end), 0.5);
+}
+
+/// The sphere as it is seen: its outline, filled. From inside, only three great circles.
+pm_vec3 draw_sphere(pm_drawing *drawing, const pm_shape *s, const look &l, pm_vec3 eye)
+{
+    pm_vec3 to = pm_vec_sub(eye, s->center);
+    double distance = pm_vec_length(to);
+    if (distance > s->radius) {
+        pm_vec3 n = pm_vec_scale(to, 1.0 / distance);
+        double ratio = s->radius / distance;
+        const std::vector<pm_vec3> rim = circle(pm_vec_along(s->center, n, s->radius * ratio),
+                                                n, s->radius * std::sqrt(1.0 - ratio * ratio));
+        drawing->polygon(rim, l.face, face_opacity);
+        drawing->outline(rim, l.edge, edge_opacity);
+    }
+    const pm_vec3 axes[3] = {pm_vec(1, 0, 0), pm_vec(0, 1, 0), pm_vec(0, 0, 1)};
+    for (const pm_vec3 &axis : axes) {
+        drawing->outline(circle(s->center, axis, s->radius), l.edge, 0.35 * edge_opacity);
+    }
+    return s->center;
+}
+
+pm_vec3 triangle_normal(const pm_shape *s, uint32_t index)
+{
+    const uint32_t *v = s->triangles[index];
+    return pm_vec_cross(pm_vec_sub(s->vertices[v[1]], s->vertices[v[0]]),
+                        pm_vec_sub(s->vertices[v[2]], s->vertices[v[0]]));
+}
+
+bool is_flat(pm_vec3 a, pm_vec3 b)
+{
+    return pm_vec_dot(a, b) > crease_cosine * pm_vec_length(a) * pm_vec_length(b);
+}
+
+/// Draws the edges that have one triangle, or two that meet at an angle.
+void draw_creases(pm_drawing *drawing, const pm_shape *s, pm_colour colour)
+{
+    typedef std::pair<uint32_t, uint32_t> edge;
+    std::map<edge, uint32_t> open;
+    std::vector<edge> creases;
+    for (uint32_t i = 0; i < s->triangle_count; i++) {
+        for (int k = 0; k < 3; k++) {
+            uint32_t a = s->triangles[i][k];
+            uint32_t b = s->triangles[i][(k + 1) % 3];
+            edge e = a < b ? edge(a, b) : edge(b, a);
+            auto other = open.find(e);
+            if (other == open.end()) {
+                open[e] = i;
+                continue;
+            }
+            if (!is_flat(triangle_normal(s, other->second), triangle_normal(s, i))) {
+                creases.push_back(e);
+            }
+            open.erase(other);
+        }
+    }
+    for (const auto &left : open) {
+        creases.push_back(left.first);
+    }
+    for (const edge &e : creases) {
+        drawing->line(s->vertices[e.first], s->vertices[e.second], colour, edge_opacity);
+    }
+}
+
+pm_vec3 draw_mesh(pm_drawing *drawing, const pm_shape *s, const look &l)
+{
+    pm_vec3 sum = pm_vec(0, 0, 0);
+    vtkIdType first = 0;
+    for (uint32_t i = 0; i < s->vertex_count; i++) {
+        vtkIdType id = drawing->vertex(s->vertices[i], l.face, face_opacity);
+        first = i == 0 ? id : first;
+        sum = pm_vec_add(sum, s->vertices[i]);
+    }
+    for (uint32_t i = 0; i < s->triangle_count; i++) {
+        const uint32_t *v = s->triangles[i];
+        drawing->triangle(first + v[0], first + v[1], first + v[2]);
+    }
+    draw_creases(drawing, s, l.edge);
+    return pm_vec_scale(sum, s->vertex_count > 0 ? 1.0 / s->vertex_count : 0.0);
+}
+
+/// Draws a shape; returns where a word about it goes.
+pm_vec3 draw_shape(pm_drawing *drawing, const pm_shape *shape, const look &l, pm_vec3 eye)
+{
+    switch (shape->type) {
+    case PM_SHAPE_RECTANGLE:
+        return draw_rectangle(drawing, shape, l);
+    case PM_SHAPE_SPHERE:
+        return draw_sphere(drawing, shape, l, eye);
+    case PM_SHAPE_DISK:
+        return draw_disk(drawing, shape, l);
+    case PM_SHAPE_CYLINDER:
+        return draw_cylinder(drawing, shape, l);
+    case PM_SHAPE_MESH:
+        break;
+    }
+    return draw_mesh(drawing, shape, l);
+}
+
+} // namespace
+
+pm_status pm_draw_scene(pm_figure *figure, const pm_scene *scene)
+{
+    return pm_figure_guard("the scene", [&] {
+        pm_drawing drawing;
+        for (int i = 0; i < scene->shape_count; i++) {
+            look l = look_of(scene, &scene->shapes[i]);
+            pm_vec3 middle =
+                draw_shape(&drawing, &scene->shapes[i], l, figure->viewpoint.position);
+            if (l.word != nullptr) {
+                PM_TRY(pm_figure_mark(figure, middle, l.word));
+            }
+        }
+        for (int i = 0; i < scene->light_count; i++) {
+            if (scene->lights[i].type == PM_LIGHT_POINT) {
+                PM_TRY(pm_figure_mark(figure, scene->lights[i].position, "light"));
+            }
+        }
+        figure->renderer->AddActor(drawing.actor(figure->pixels(1.2), 1.0, 4.0));
+        return PM_OK;
+    });
+}

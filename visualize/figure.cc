@@ -1,0 +1,150 @@
+// Opening, writing and closing a figure.
+//
+// Multisampling is on and depth peeling off: with both on, Mesa's software renderer loses every
+// translucent surface without a word. VTK's messages are kept off standard error; its errors,
+// if any, make the write fail.
+#include "figure.hh"
+
+extern "C" {
+#include "png.h"
+}
+
+#include <vtkAutoInit.h>
+#include <vtkCamera.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkOutputWindow.h>
+#include <vtkTransform.h>
+#include <vtkUnsignedCharArray.h>
+
+#include "window.hh"
+
+#include <cmath>
+#include <vector>
+
+VTK_MODULE_INIT(vtkRenderingOpenGL2)
+VTK_MODULE_INIT(vtkRenderingFreeType)
+
+namespace {
+
+/// Takes VTK's messages: remembers the first error, drops the rest.
+class Listener : public vtkOutputWindow {
+  public:
+    static Listener *New();
+    void DisplayText(const char *) override
+    {
+    }
+    void DisplayErrorText(const char *text) override
+    {
+        if (first.empty()) {
+            first = text;
+        }
+    }
+
+    std::string first;
+};
+
+Listener *Listener::New()
+{
+    VTK_STANDARD_NEW_BODY(Listener);
+}
+
+/// The listener in place, put there by the first figure.
+Listener *listen()
+{
+    Listener *there = dynamic_cast<Listener *>(vtkOutputWindow::GetInstance());
+    if (there == nullptr) {
+        vtkNew<Listener> listener;
+        vtkOutputWindow::SetInstance(listener);
+        there = listener;
+    }
+    return there;
+}
+
+void point_camera(vtkCamera *camera, const pm_viewpoint &v)
+{
+    pm_vec3 at = pm_vec_add(v.position, v.forward);
+    camera->SetPosition(v.position.x, v.position.y, v.position.z);
+    camera->SetFocalPoint(at.x, at.y, at.z);
+    camera->SetViewUp(v.up.x, v.up.y, v.up.z);
+    camera->SetViewAngle(2.0 * std::atan(v.tan_y) * 180.0 / PM_PI);
+    camera->SetWindowCenter(v.shift_x, v.shift_y);
+    if (pm_vec_dot(pm_vec_cross(v.forward, v.up), v.right) < 0.0) {
+        vtkNew<vtkTransform> mirror;
+        mirror->Scale(-1.0, 1.0, 1.0);
+        camera->SetUserViewTransform(mirror);
+    }
+}
+
+pm_status check_size(const pm_viewpoint *v)
+{
+    int least = v->width < v->height ? v->width : v->height;
+    int most = v->width > v->height ? v->width : v->height;
+    if (least < PM_FIGURE_SIZE_MIN || most > PM_FIGURE_SIZE_MAX) {
+        return pm_status_fail(PM_EINPUT,
+                              "view: --size must lie in %d..%d on each side, got %dx%d",
+                              PM_FIGURE_SIZE_MIN, PM_FIGURE_SIZE_MAX, v->width, v->height);
+    }
+    return PM_OK;
+}
+
+/// The picture's pixels, rows from the top.
+std::vector<uint8_t> read_pixels(vtkRenderWindow *window, int width, int height)
+{
+    vtkNew<vtkUnsignedCharArray> upward;
+    window->GetPixelData(0, 0, width - 1, height - 1, 0, upward);
+    size_t row = 3 * static_cast<size_t>(width);
+    std::vector<uint8_t> pixels(row * static_cast<size_t>(height));
+    if (static_cast<size_t>(upward->GetNumberOfValues()) != pixels.size()) {
+        throw std::runtime_error("VTK hands back no pixels");
+    }
+    for (int y = 0; y < height; y++) {
+        const unsigned char *from = upward->GetPointer(static_cast<vtkIdType>(row) * y);
+        std::copy(from, from + row, &pixels[row * static_cast<size_t>(height - 1 - y)]);
+    }
+    return pixels;
+}
+
+} // namespace
+
+pm_status pm_figure_open(const pm_viewpoint *viewpoint, pm_figure **figure)
+{
+    return pm_figure_guard("a figure", [&] {
+        PM_TRY(check_size(viewpoint));
+        listen()->first.clear();
+        vtkSmartPointer<vtkRenderWindow> window;
+        PM_TRY(pm_window_open(viewpoint->width, viewpoint->height, &window));
+        window->SetMultiSamples(8);
+        auto renderer = vtkSmartPointer<vtkRenderer>::New();
+        renderer->SetUseDepthPeeling(0);
+        renderer->GradientBackgroundOn();
+        renderer->SetBackground(8 / 255.0, 9 / 255.0, 14 / 255.0);
+        renderer->SetBackground2(30 / 255.0, 34 / 255.0, 48 / 255.0);
+        window->AddRenderer(renderer);
+        point_camera(renderer->GetActiveCamera(), *viewpoint);
+        *figure = new pm_figure{*viewpoint, window, renderer,
+                                (1.0 - PM_VIEWPOINT_TOP) * viewpoint->height};
+        return PM_OK;
+    });
+}
+
+pm_status pm_figure_write(pm_figure *figure, const char *path)
+{
+    return pm_figure_guard("a picture", [&] {
+        figure->renderer->ResetCameraClippingRange();
+        figure->window->Render();
+        const pm_viewpoint &v = figure->viewpoint;
+        std::vector<uint8_t> pixels = read_pixels(figure->window, v.width, v.height);
+        const std::string &fault = listen()->first;
+        if (!fault.empty()) {
+            return PM_FAIL(PM_ELIMIT, "VTK cannot draw this: %.200s",
+                           fault.substr(0, fault.find('\n')).c_str());
+        }
+        return pm_png_write_bytes(path, pixels.data(), v.width, v.height);
+    });
+}
+
+void pm_figure_close(pm_figure *figure)
+{
+    delete figure;
+}

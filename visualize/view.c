@@ -1,0 +1,305 @@
+// view: pictures of what the other programs wrote. Nothing is traced here: a kind of picture is
+// a reader, a few things to draw, and a title.
+//
+//     view photons MAP.ply [MAP.ply ...] --scene SCENE.xml -o out.png
+//     view paths PATHS.csv --scene SCENE.xml [--paths N] -o out.png
+//     view tree MAP.ply --scene SCENE.xml [--depth D] -o out.png
+//     view irradiance GRID.csv --scene SCENE.xml -o out.png
+#include "draw.h"
+#include "figure.h"
+#include "grid_file.h"
+#include "path_file.h"
+#include "photon_cloud.h"
+#include "photon_file.h"
+#include "photon_map.h"
+#include "program.h"
+#include "scene_read.h"
+#include "tree_split.h"
+#include "view_options.h"
+#include "viewpoint.h"
+
+#include <jansson.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#define NOTE_MAX 512
+#define FILES_MAX 4
+#define BACKDROP 0.4 // brightness of photons behind a tree
+
+/// One picture on its way: what it is made from and of.
+typedef struct {
+    const pm_options *options;
+    const pm_view_options *view;
+    const char *const *files;
+    int file_count;
+    pm_scene scene;
+    pm_figure *figure;
+    pm_photon_cloud clouds[FILES_MAX]; // drawn without a copy: freed after the figure
+    int cloud_count;
+    uint64_t drawn; // photons, paths, split planes or grid points
+    char note[NOTE_MAX];
+} picture;
+
+/// A kind of picture; `draw` draws its data and writes the note.
+typedef struct {
+    const char *name;
+    int files_most;
+    const char *title;
+    pm_status (*draw)(picture *p);
+} kind;
+
+/// 1234567 as 1,234,567; `text` holds 32.
+static const char *grouped(uint64_t value, char *text)
+{
+    char digits[32];
+    int count = snprintf(digits, sizeof digits, "%llu", (unsigned long long)value);
+    char *to = text;
+    for (int i = 0; i < count; i++) {
+        if (i > 0 && (count - i) % 3 == 0) {
+            *to++ = ',';
+        }
+        *to++ = digits[i];
+    }
+    *to = '\0';
+    return text;
+}
+
+/// Adds to the note; what does not fit is cut.
+#if defined(__GNUC__)
+__attribute__((format(printf, 2, 3)))
+#endif
+static void
+add_note(picture *p, const char *format, ...)
+{
+    size_t used = strlen(p->note);
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(p->note + used, sizeof p->note - used, format, arguments);
+    va_end(arguments);
+}
+
+/// Reads a photon file of this scene.
+static pm_status read_map(const picture *p, const char *path, pm_photon_map *map)
+{
+    pm_photon_file_info info = {0};
+    PM_TRY(pm_photon_file_read(path, map, &info, NULL));
+    if (info.scene_hash != p->scene.hash) {
+        pm_photon_map_free(map);
+        return pm_status_fail(
+            PM_EINPUT,
+            "%s: these photons were traced in another scene than %s, or in an "
+            "earlier version of it; write the file again",
+            path, p->scene.path);
+    }
+    return PM_OK;
+}
+
+static pm_status draw_map(picture *p, const pm_photon_map *map, double emphasis)
+{
+    pm_photon_cloud *cloud = &p->clouds[p->cloud_count];
+    PM_TRY(pm_photon_cloud_make(map, cloud));
+    p->cloud_count++;
+    return pm_draw_photons(p->figure, cloud, emphasis);
+}
+
+static pm_status draw_photons(picture *p)
+{
+    add_note(p,
+             "every dot is one photon, in the colour of its power; where they lie dense, there "
+             "is much light\n");
+    for (int i = 0; i < p->file_count; i++) {
+        pm_photon_map map = {0};
+        char stored[32];
+        char emitted[32];
+        PM_TRY(read_map(p, p->files[i], &map));
+        pm_status status = draw_map(p, &map, 1.0);
+        add_note(p, "%s%s map: %s stored of %s emitted", i > 0 ? "   |   " : "",
+                 p->clouds[i].name, grouped(map.count, stored), grouped(map.emitted, emitted));
+        p->drawn += map.count;
+        pm_photon_map_free(&map);
+        PM_TRY(status);
+    }
+    return PM_OK;
+}
+
+static pm_status draw_paths(picture *p)
+{
+    pm_path_set paths;
+    char drawn[32];
+    char all[32];
+    PM_TRY(pm_path_file_read(p->files[0], p->scene.center, &paths));
+    pm_status status = pm_draw_paths(p->figure, &paths, p->view->paths, &p->drawn);
+    add_note(p,
+             "from the light until a surface absorbs them or they leave the scene\n"
+             "%s of %s paths drawn",
+             grouped(p->drawn, drawn), grouped(paths.path_count, all));
+    pm_path_file_free(&paths);
+    return status;
+}
+
+static pm_status draw_splits(picture *p, const pm_photon_map *map)
+{
+    pm_tree_split_set tree;
+    char count[32];
+    char shown[32];
+    PM_TRY(pm_tree_split_make(map, p->files[0], p->view->depth, &tree));
+    p->drawn = tree.count;
+    add_note(
+        p,
+        "every plane goes through the median photon of its cell and cuts its longest side\n"
+        "%s photons, tree %d deep; the first %d depths: %s planes",
+        grouped(map->count, count), tree.height, tree.depths, grouped(tree.count, shown));
+    pm_status status = draw_map(p, map, BACKDROP);
+    if (status == PM_OK) {
+        status = pm_draw_tree(p->figure, &tree);
+    }
+    pm_tree_split_free(&tree);
+    return status;
+}
+
+static pm_status draw_tree(picture *p)
+{
+    pm_photon_map map = {0};
+    PM_TRY(read_map(p, p->files[0], &map));
+    pm_status status = draw_splits(p, &map);
+    pm_photon_map_free(&map);
+    return status;
+}
+
+static pm_status draw_irradiance(picture *p)
+{
+    pm_grid grid;
+    PM_TRY(pm_grid_file_read(p->files[0], p->scene.center, &grid));
+    p->drawn = grid.columns * grid.rows;
+    add_note(
+        p,
+        "light arriving on a square metre, estimated from the photons nearest to each point\n"
+        "%llu x %llu points",
+        (unsigned long long)grid.columns, (unsigned long long)grid.rows);
+    pm_status status = pm_draw_irradiance(p->figure, &grid);
+    pm_grid_file_free(&grid);
+    return status;
+}
+
+static const kind kinds[] = {
+    {"photons", FILES_MAX, "Photon map: where the light landed", draw_photons},
+    {"paths", 1, "Photon paths", draw_paths},
+    {"tree", 1, "kd-tree: how the photons are divided", draw_tree},
+    {"irradiance", 1, "Irradiance", draw_irradiance},
+};
+
+static pm_status find_kind(const char *name, const kind **found)
+{
+    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
+        if (strcmp(kinds[i].name, name) == 0) {
+            *found = &kinds[i];
+            return PM_OK;
+        }
+    }
+    return pm_status_fail(
+        PM_EINPUT, "view: KIND must be photons, paths, tree or irradiance, got \"%s\"", name);
+}
+
+static json_t *vector_json(pm_vec3 v)
+{
+    return json_pack("[f,f,f]", v.x, v.y, v.z);
+}
+
+/// Where everything is in the picture: with this a reader finds the pixel of any point.
+static pm_status print_json(const picture *p, const pm_viewpoint *v)
+{
+    json_t *camera = json_pack("{s:o,s:o,s:o,s:o,s:[f,f],s:[f,f]}", "position",
+                               vector_json(pm_vec_add(v->position, p->scene.center)), "right",
+                               vector_json(v->right), "up", vector_json(v->up), "forward",
+                               vector_json(v->forward), "tan", v->tan_x, v->tan_y, "shift",
+                               v->shift_x, v->shift_y);
+    json_t *all =
+        json_pack("{s:s,s:[i,i],s:I,s:s,s:o}", "picture", p->options->output, "size", v->width,
+                  v->height, "drawn", (json_int_t)p->drawn, "note", p->note, "camera", camera);
+    if (all == NULL || json_dumpf(all, stdout, JSON_COMPACT) != 0) {
+        json_decref(all);
+        return PM_FAIL(PM_EIO, "%s", "cannot write JSON to standard output");
+    }
+    printf("\n");
+    json_decref(all);
+    return PM_OK;
+}
+
+static pm_status make(picture *p, const kind *k)
+{
+    int width = p->options->width > 0 ? p->options->width : 1200;
+    int height = p->options->height > 0 ? p->options->height : 900;
+    pm_viewpoint viewpoint = pm_viewpoint_of(&p->scene, width, height);
+    PM_TRY(pm_figure_open(&viewpoint, &p->figure));
+    PM_TRY(pm_draw_scene(p->figure, &p->scene));
+    PM_TRY(k->draw(p));
+    const char *title = p->options->title != NULL ? p->options->title : k->title;
+    PM_TRY(pm_figure_title(p->figure, title, p->note));
+    PM_TRY(pm_figure_write(p->figure, p->options->output));
+    return p->options->json ? print_json(p, &viewpoint) : PM_OK;
+}
+
+static pm_status check_files(const picture *p, const kind *k)
+{
+    if (p->file_count < 1 || p->file_count > k->files_most) {
+        return pm_status_fail(PM_EINPUT, "view: %s takes 1 to %d files, got %d", k->name,
+                              k->files_most, p->file_count);
+    }
+    if (p->view->scene == NULL) {
+        return pm_status_fail(PM_EINPUT, "view: --scene SCENE.xml is missing");
+    }
+    return PM_OK;
+}
+
+static pm_status run(const pm_options *options, const pm_view_options *view)
+{
+    const kind *k = NULL;
+    picture p = {.options = options,
+                 .view = view,
+                 .files = options->positional + 1,
+                 .file_count = options->positional_count - 1};
+    PM_TRY(find_kind(options->positional[0], &k));
+    PM_TRY(check_files(&p, k));
+    PM_TRY(pm_scene_read(view->scene, options->define, options->define_count, false, &p.scene));
+    pm_status status = make(&p, k);
+    pm_figure_close(p.figure);
+    for (int i = 0; i < p.cloud_count; i++) {
+        pm_photon_cloud_free(&p.clouds[i]);
+    }
+    pm_scene_free(&p.scene);
+    return status;
+}
+
+int main(int argc, char **argv)
+{
+    static const pm_options_program program = {
+        .name = "view",
+        .does = "Draws what other programs wrote: photons, paths, the kd-tree, irradiance.",
+        .positional = "KIND FILE...",
+        .positional_least = 2,
+        .positional_most = 1 + FILES_MAX,
+        .options = "o size title",
+        .needs = "o",
+        .notes =
+            "KIND and its FILE: photons MAP.ply [MAP.ply ...], paths PATHS.csv (tracing "
+            "--dump),\n"
+            "tree MAP.ply, irradiance GRID.csv (radiance --grid --dump). Also:\n"
+            "  --scene SCENE.xml  the scene that the data came from; needed\n"
+            "  --depth D          tree: levels drawn, 1..16, default 6\n"
+            "  --paths N          paths: drawn at most, default 150\n"
+            "The picture is 1200x900 unless --size says otherwise. --json prints the camera,\n"
+            "so that a program can find the pixel of any point.",
+    };
+    pm_options options;
+    pm_view_options view;
+    int code = 0;
+    pm_status status = pm_view_options_take(&argc, argv, &view);
+    if (status != PM_OK) {
+        return pm_program_end(status);
+    }
+    if (!pm_program_start(argc, argv, &program, &options, &code)) {
+        return code;
+    }
+    return pm_program_end(run(&options, &view));
+}
