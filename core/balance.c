@@ -250,6 +250,10 @@ pm_status pm_balance_nearest(const pm_photon_map *map, const pm_search *search,
     candidates held = {nearest, search->k, 0, nextafter(search->radius2, HUGE_VAL)};
     pending later[32]; // a tree of 2^31 - 1 photons is 31 high
     int waiting = 0;
+    double widen[3];
+    for (int a = 0; a < 3; a++) {
+        widen[a] = search->widen[a] > 1.0 ? search->widen[a] : 1.0;
+    }
     uint64_t looked_at = 0;
     uint64_t node = 1;
     for (;;) {
@@ -261,7 +265,7 @@ pm_status pm_balance_nearest(const pm_photon_map *map, const pm_search *search,
             int axis = photon->flags & PM_PHOTON_AXIS;
             double beyond = pm_vec_axis(search->at, axis) - (double)photon->position[axis];
             uint64_t near = 2 * node + (beyond > 0.0 ? 1 : 0);
-            later[waiting] = (pending){near ^ 1, beyond * beyond};
+            later[waiting] = (pending){near ^ 1, beyond * beyond * widen[axis]};
             waiting += (near ^ 1) <= map->count ? 1 : 0;
             node = near;
         }

@@ -19,6 +19,8 @@ typedef struct {
     double radius2;      // squared reach [m^2], > 0; INFINITY for none
     pm_accept_fn accept; // NULL: every photon, Euclidean distance
     const void *context;
+    double widen[3]; // a plane at distance d across axis a is at least d^2 widen[a] away in the
+                     // measure of `accept`; 0 stands for 1, which is always right
 } pm_search;
 
 /// How many of `count` >= 1 photons go to the left subtree of a left-balanced tree.

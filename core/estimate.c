@@ -75,6 +75,18 @@ bool pm_estimate_accept(const void *context, const pm_photon *photon, double *di
     return true;
 }
 
+/// How much farther than its Euclidean distance a plane across an axis is for a disc. The least
+/// p^T (I + s n n^T) p over p_a >= d is d^2 / (1 - s/(1+s) n_a^2), with 1 + s = 1 / flatness^2.
+/// Taken down by far more than its rounding, as it may only be too small.
+static void widen_planes(const pm_estimate_query *query, double widen[3])
+{
+    double flatten = 1.0 - query->flatness * query->flatness;
+    for (int a = 0; a < 3 && query->shape == PM_GATHER_DISC; a++) {
+        double along = pm_vec_axis(query->point.normal, a);
+        widen[a] = (1.0 - 0x1p-40) / (1.0 - flatten * along * along);
+    }
+}
+
 // --- how large an area they stand for
 // ------------------------------------------------------------
 
@@ -176,6 +188,7 @@ static pm_status estimate_surface(const pm_photon_map *map,
     PM_TRY(check(map, settings));
     pm_estimate_query query = {*point, settings->shape, settings->flatness, settings->skip};
     pm_search what = {.at = point->at, .accept = pm_estimate_accept, .context = &query};
+    widen_planes(&query, what.widen);
     extent area;
     pm_spectrum sum;
     double normalisation;
