@@ -9,11 +9,15 @@ extern "C" {
 #include "png.h"
 }
 
+#include <vtkActor2D.h>
 #include <vtkAutoInit.h>
 #include <vtkCamera.h>
+#include <vtkCoordinate.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
+#include <vtkPolyDataMapper2D.h>
+#include <vtkProperty2D.h>
 #include <vtkTransform.h>
 #include <vtkUnsignedCharArray.h>
 
@@ -106,6 +110,19 @@ std::vector<uint8_t> read_pixels(vtkRenderWindow *window, int width, int height)
 }
 
 } // namespace
+
+void pm_figure_overlay(pm_figure *figure, vtkPolyData *data, double line_width)
+{
+    vtkNew<vtkPolyDataMapper2D> mapper;
+    mapper->SetInputData(data);
+    vtkNew<vtkCoordinate> pixels;
+    pixels->SetCoordinateSystemToViewport();
+    mapper->SetTransformCoordinate(pixels);
+    vtkNew<vtkActor2D> actor;
+    actor->SetMapper(mapper);
+    actor->GetProperty()->SetLineWidth(static_cast<float>(line_width));
+    figure->renderer->AddActor2D(actor);
+}
 
 pm_status pm_figure_open(const pm_viewpoint *viewpoint, pm_figure **figure)
 {

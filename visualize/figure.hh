@@ -5,6 +5,7 @@
 #include "core.hh"
 #include "figure.h"
 
+#include <vtkPolyData.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
@@ -26,7 +27,16 @@ struct pm_figure {
     {
         return at900 * viewpoint.height / 900.0;
     }
+
+    /// Left edge of the right column, in pixels.
+    double column_left() const
+    {
+        return (1.0 - PM_VIEWPOINT_RIGHT) * viewpoint.width + pixels(22.0);
+    }
 };
+
+/// Puts a drawing in pixel coordinates (from the bottom left) over the scene.
+void pm_figure_overlay(pm_figure *figure, vtkPolyData *data, double line_width);
 
 /// Runs the body of a C function: no C++ exception leaves it.
 template <class Body> pm_status pm_figure_guard(const char *what, Body body) noexcept

@@ -3,11 +3,7 @@
 #include "drawing.hh"
 #include "figure.hh"
 
-#include <vtkActor2D.h>
-#include <vtkCoordinate.h>
 #include <vtkNew.h>
-#include <vtkPolyDataMapper2D.h>
-#include <vtkProperty2D.h>
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
 
@@ -37,25 +33,9 @@ vtkTextProperty *write(pm_figure *figure, const std::string &text, double x, dou
     style->SetFontSize(static_cast<int>(std::lround(figure->pixels(size))));
     style->SetColor(0.93, 0.94, 0.96);
     style->SetVerticalJustificationToTop();
-    style->SetBackgroundColor(0.06, 0.07, 0.1);
-    style->SetBackgroundOpacity(0.55);
     style->SetLineSpacing(1.25);
     figure->renderer->AddActor2D(actor);
     return style;
-}
-
-/// Puts a drawing in pixel coordinates over the scene.
-void overlay(pm_figure *figure, const pm_drawing &drawing, double line_width)
-{
-    vtkNew<vtkPolyDataMapper2D> mapper;
-    mapper->SetInputData(drawing.data());
-    vtkNew<vtkCoordinate> pixels;
-    pixels->SetCoordinateSystemToViewport();
-    mapper->SetTransformCoordinate(pixels);
-    vtkNew<vtkActor2D> actor;
-    actor->SetMapper(mapper);
-    actor->GetProperty()->SetLineWidth(static_cast<float>(line_width));
-    figure->renderer->AddActor2D(actor);
 }
 
 void box(pm_drawing *drawing, double x0, double y0, double x1, double y1, pm_colour colour)
@@ -97,16 +77,11 @@ void swatch(const pm_figure *figure, pm_drawing *drawing, const pm_legend_entry 
     }
 }
 
-double column_left(const pm_figure *figure)
-{
-    return (1.0 - PM_VIEWPOINT_RIGHT) * figure->viewpoint.width + figure->pixels(22.0);
-}
-
 /// The heading of a block; returns the height where its content starts.
 double begin_block(pm_figure *figure, const char *heading)
 {
     double top = figure->column_top;
-    write(figure, heading, column_left(figure), top, text_size)->BoldOn();
+    write(figure, heading, figure->column_left(), top, text_size)->BoldOn();
     int lines = 1;
     for (const char *c = heading; *c != '\0'; c++) {
         lines += *c == '\n';
@@ -174,7 +149,7 @@ pm_status pm_figure_legend(pm_figure *figure, const char *heading,
                            const pm_legend_entry *entries, int count)
 {
     return pm_figure_guard("a legend", [&] {
-        double x = column_left(figure);
+        double x = figure->column_left();
         double y = begin_block(figure, heading);
         pm_drawing swatches;
         for (int i = 0; i < count; i++) {
@@ -184,7 +159,7 @@ pm_status pm_figure_legend(pm_figure *figure, const char *heading,
             write(figure, entries[i].text, x + indent, y, text_size - (alone ? 2.0 : 0.0));
             y -= figure->pixels(line_height);
         }
-        overlay(figure, swatches, 1.0);
+        pm_figure_overlay(figure, swatches.data(), 1.0);
         figure->column_top = y - figure->pixels(16.0);
         return PM_OK;
     });
@@ -193,7 +168,7 @@ pm_status pm_figure_legend(pm_figure *figure, const char *heading,
 pm_status pm_figure_scale(pm_figure *figure, const pm_scale *scale)
 {
     return pm_figure_guard("a scale", [&] {
-        double x = column_left(figure);
+        double x = figure->column_left();
         double top = begin_block(figure, scale->heading) - figure->pixels(10.0);
         double height = figure->pixels(bar_height);
         double w = figure->pixels(swatch_width);
@@ -210,7 +185,7 @@ pm_status pm_figure_scale(pm_figure *figure, const pm_scale *scale)
             write(figure, t.text, x + w + figure->pixels(13.0), y, text_size - 1.0)
                 ->SetVerticalJustificationToCentered();
         }
-        overlay(figure, bar, figure->pixels(1.5));
+        pm_figure_overlay(figure, bar.data(), figure->pixels(1.5));
         figure->column_top = top - height - figure->pixels(34.0);
         return PM_OK;
     });
@@ -224,7 +199,9 @@ pm_status pm_figure_mark(pm_figure *figure, pm_vec3 at, const char *text)
         if (pm_viewpoint_project(&figure->viewpoint, at, &x, &y)) {
             vtkTextProperty *style =
                 write(figure, text, x, figure->viewpoint.height - y, mark_size);
-            style->SetColor(0.75, 0.78, 0.84);
+            style->SetColor(0.85, 0.87, 0.92);
+            style->SetBackgroundColor(0.06, 0.07, 0.1);
+            style->SetBackgroundOpacity(0.6);
             style->SetJustificationToCentered();
             style->SetVerticalJustificationToCentered();
         }

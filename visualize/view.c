@@ -25,7 +25,7 @@
 
 #define NOTE_MAX 512
 #define FILES_MAX 4
-#define BACKDROP 0.4 // brightness of photons behind a tree
+#define BACKDROP 0.6 // brightness of photons behind a tree
 
 /// One picture on its way: what it is made from and of.
 typedef struct {
