@@ -5,6 +5,7 @@
 #include "clock.h"
 #include "interrupt.h"
 #include "photon_map.h"
+#include "progress.h"
 #include "store.h"
 
 #include <stdlib.h>
@@ -23,6 +24,7 @@ typedef struct {
     pm_photon_map *map;
     pm_pass_report *report;
     bool done; // nothing more is wanted
+    pm_progress progress;
     pm_status status;
     char message[1024];
 } pm_pass;
@@ -142,6 +144,7 @@ static void run_chunk(pm_pass *pass, pm_pass_worker *worker, uint64_t chunk)
         if (!pass->done && status != PM_OK) {
             fail(pass, status);
         }
+        pm_progress_add(&pass->progress, count);
     }
 }
 
@@ -265,7 +268,9 @@ static pm_status run(const pm_intersector *world, pm_map_kind kind,
     prepare(&pass, world, kind);
     PM_TRY(pm_emit_share(world->scene, settings->count, report->share));
     pass.emission.share = report->share;
+    pass.progress = pm_progress_begin("tracing", settings->count);
     run_chunks(&pass);
+    pm_progress_end(&pass.progress);
     PM_TRY(outcome(&pass));
     pm_photon_map_trim(map);
     PM_TRY(pm_store_scale(map, report->emitted));

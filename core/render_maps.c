@@ -5,6 +5,8 @@
 #include "clock.h"
 #include "photon_map.h"
 
+#define GIVE_UP_AFTER 100 // photons emitted for one that was to be stored
+
 pm_render_settings pm_render_defaults(void)
 {
     return (pm_render_settings){
@@ -21,9 +23,10 @@ pm_render_settings pm_render_defaults(void)
 static pm_status trace_map(const pm_intersector *world, const pm_render_settings *settings,
                            pm_map_kind kind, pm_render_maps *maps)
 {
+    uint64_t most = settings->stored * GIVE_UP_AFTER;
     pm_pass_settings pass = {
         .seed = settings->seed,
-        .count = settings->photons[kind],
+        .count = settings->stored == 0 ? settings->photons[kind] : most,
         .stored = settings->stored,
         .rule = settings->roulette,
         .max_bounces = settings->max_bounces,
