@@ -19,6 +19,7 @@ typedef struct {
     pm_xml **named; // elements with an id, sorted by it
     int named_count;
     pm_scene scene;
+    int plain;             // material of shapes without a bsdf, or PM_NONE until there is one
     pm_vec3 *shape_origin; // per shape: where its data's origin lies in the file's coordinates
     pm_vec3 *light_origin; // per light, likewise
     pm_vec3 camera_origin;

@@ -174,8 +174,7 @@ pm_transform pm_scene_value_transform(pm_scene_file *source, const pm_xml *objec
         whole = pm_transform_then(&whole, &step);
     }
     double handedness = pm_transform_handedness(&whole);
-    if (handedness != handedness || handedness == 0.0 ||
-        !isfinite(pm_vec_reach(whole.origin))) {
+    if (isnan(handedness) || handedness == 0.0 || !isfinite(pm_vec_reach(whole.origin))) {
         PM_FAULT(source, given, "transform %s is singular: it flattens space or overflows",
                  name);
         return pm_transform_identity();

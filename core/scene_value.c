@@ -33,6 +33,13 @@ static const char *value_of(const pm_xml *object, const char *name, int kinds,
     return value == pm_xml_faulty ? NULL : value;
 }
 
+/// Where to report a fault in the value.
+static const pm_xml *place_of(const pm_xml *object, const char *name)
+{
+    const pm_xml *given = pm_scene_value_find(object, name);
+    return given == NULL ? object : given;
+}
+
 static const char *type_of(const pm_xml *object)
 {
     const char *type = pm_xml_attribute(object, "type");
@@ -59,8 +66,8 @@ double pm_scene_value_positive(pm_scene_file *source, const pm_xml *object, cons
     if (number > 0.0) {
         return number;
     }
-    PM_FAULT(source, pm_scene_value_find(object, name), "%s %s must be > 0, got %g",
-             type_of(object), name, number);
+    PM_FAULT(source, place_of(object, name), "%s %s must be > 0, got %g", type_of(object), name,
+             number);
     return otherwise;
 }
 
@@ -153,7 +160,7 @@ pm_spectrum pm_scene_value_ratio(pm_scene_file *source, const pm_xml *object, co
     if (i == 3) {
         return value;
     }
-    const pm_xml *given = pm_scene_value_find(object, name);
+    const pm_xml *given = place_of(object, name);
     PM_FAULT(source, given, "%s %s must lie in [0, 1], got %g in %s", given->tag, name,
              value.c[i], channel_name[i]);
     return pm_gray(otherwise);
@@ -167,7 +174,7 @@ pm_spectrum pm_scene_value_amount(pm_scene_file *source, const pm_xml *object, c
     if (i == 3) {
         return value;
     }
-    const pm_xml *given = pm_scene_value_find(object, name);
+    const pm_xml *given = place_of(object, name);
     PM_FAULT(source, given, "%s %s must be %s 0, got %g in %s", given->tag, name,
              positive ? ">" : ">=", value.c[i], channel_name[i]);
     return pm_gray(otherwise);

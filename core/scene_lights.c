@@ -1,0 +1,122 @@
+// Lights stand in the order of the file, an area light where its shape stands.
+#include "scene_build.h"
+#include "scene_value.h"
+
+#include <string.h>
+
+static bool is_type(const pm_xml *object, const char *type)
+{
+    const char *given = pm_xml_attribute(object, "type");
+    return given != NULL && strcmp(given, type) == 0;
+}
+
+/// `name` and to_world exclude each other, as in Mitsuba.
+static void check_either(pm_scene_file *source, const pm_xml *emitter, const char *name)
+{
+    if (pm_scene_value_find(emitter, name) != NULL &&
+        pm_scene_value_find(emitter, "to_world") != NULL) {
+        PM_FAULT(source, emitter, "%s takes either %s or to_world",
+                 pm_xml_attribute(emitter, "type"), name);
+    }
+}
+
+static void read_point(pm_scene_file *source, const pm_xml *emitter, pm_light *light,
+                       pm_vec3 *origin)
+{
+    check_either(source, emitter, "position");
+    light->type = PM_LIGHT_POINT;
+    light->position = pm_scene_value_triple(source, emitter, "position", pm_vec(0.0, 0.0, 0.0));
+    *origin = pm_scene_value_transform(source, emitter, "to_world").origin;
+    light->emitted = pm_scene_value_emission(source, emitter, "intensity");
+}
+
+static void read_directional(pm_scene_file *source, const pm_xml *emitter, pm_light *light)
+{
+    check_either(source, emitter, "direction");
+    pm_transform to_world = pm_scene_value_transform(source, emitter, "to_world");
+    pm_vec3 way = pm_scene_value_triple(source, emitter, "direction", to_world.column[2]);
+    double reach = pm_vec_reach(way);
+    if (reach == 0.0) {
+        PM_FAULT(source, emitter, "directional direction must not be zero");
+        way = pm_vec(0.0, 0.0, 1.0);
+        reach = 1.0;
+    }
+    light->type = PM_LIGHT_DIRECTIONAL;
+    light->direction = pm_vec_normalize(pm_vec_scale(way, 1.0 / reach));
+    light->emitted = pm_scene_value_emission(source, emitter, "irradiance");
+}
+
+/// Areas of the triangles 0..i, so that a point can be picked uniformly.
+static void sum_areas(pm_scene_file *source, pm_shape *shape)
+{
+    shape->area_below =
+        pm_scene_file_take(source, shape->triangle_count, sizeof *shape->area_below);
+    double sum = 0.0;
+    for (uint32_t i = 0; shape->area_below != NULL && i < shape->triangle_count; i++) {
+        const uint32_t *corner = shape->triangles[i];
+        const pm_vec3 *v = shape->vertices;
+        pm_vec3 across = pm_vec_cross(pm_vec_sub(v[corner[1]], v[corner[0]]),
+                                      pm_vec_sub(v[corner[2]], v[corner[0]]));
+        sum += 0.5 * pm_vec_length(across);
+        shape->area_below[i] = sum;
+    }
+}
+
+static void read_area(pm_scene_file *source, const pm_xml *emitter, int index)
+{
+    pm_light *light = &source->scene.lights[index];
+    light->type = PM_LIGHT_AREA;
+    light->emitted = pm_scene_value_emission(source, emitter, "radiance");
+    light->shape = emitter->parent->index;
+    if (light->shape == PM_NONE) {
+        return;
+    }
+    pm_shape *shape = &source->scene.shapes[light->shape];
+    if (shape->light != PM_NONE) {
+        PM_FAULT(source, emitter, "a shape takes at most one emitter");
+    }
+    shape->light = index;
+    if (shape->type == PM_SHAPE_MESH && shape->area_below == NULL) {
+        sum_areas(source, shape);
+    }
+}
+
+static void read_emitter(pm_scene_file *source, const pm_xml *emitter, int index)
+{
+    pm_light *light = &source->scene.lights[index];
+    *light = (pm_light){.line = emitter->line, .shape = PM_NONE, .medium = PM_NONE};
+    light->id = pm_scene_file_name(source, emitter);
+    bool inside = strcmp(emitter->parent->tag, "shape") == 0;
+    if (is_type(emitter, "area") != inside) {
+        PM_FAULT(source, emitter, "emitter \"%s\" %s", pm_xml_attribute(emitter, "type"),
+                 inside ? "cannot stand inside a shape; \"area\" can"
+                        : "stands inside the shape that emits");
+    } else if (inside) {
+        read_area(source, emitter, index);
+    } else if (is_type(emitter, "point")) {
+        read_point(source, emitter, light, &source->light_origin[index]);
+    } else if (is_type(emitter, "directional")) {
+        read_directional(source, emitter, light);
+    }
+}
+
+void pm_scene_build_lights(pm_scene_file *source)
+{
+    pm_scene *scene = &source->scene;
+    size_t count = (size_t)pm_scene_file_count(source, "emitter");
+    scene->lights = pm_scene_file_take(source, count, sizeof *scene->lights);
+    source->light_origin = pm_arena_take(&source->tree, count, sizeof *source->light_origin);
+    if (scene->lights == NULL || source->light_origin == NULL) {
+        pm_faults_fail(&source->faults, PM_ENOMEM);
+        return;
+    }
+    for (pm_xml *e = source->root; e != NULL; e = pm_xml_following(source->root, e)) {
+        if (strcmp(e->tag, "emitter") == 0 && pm_xml_attribute(e, "type") != NULL) {
+            read_emitter(source, e, scene->light_count++);
+        }
+    }
+    if (count == 0) {
+        pm_faults_add(&source->faults, source->root->file, 0,
+                      "the scene has no emitter, so it is dark: add one");
+    }
+}
