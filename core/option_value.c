@@ -32,7 +32,8 @@ static bool read_count(const char *text, const pm_option *option, uint64_t *coun
         return false;
     }
     *count = strtoull(text, NULL, 10);
-    return (double)*count >= option->least && (double)*count <= option->most;
+    // As integers: as doubles 2^53 + 1 would be 2^53.
+    return *count >= (uint64_t)option->least && *count <= (uint64_t)option->most;
 }
 
 // A finite decimal number at the start of `text`; `end` is what follows it.
