@@ -220,6 +220,22 @@ void pm_shapes_room(const pm_frame *turned, pm_vec3 center, double half, pm_shap
     }
 }
 
+void pm_shapes_each(uint64_t seed, pm_shape shapes[PM_SHAPES_KINDS])
+{
+    pm_rng rng = pm_shapes_rng(seed, 2);
+    pm_vec3 a = pm_shapes_inside(&rng, 1.0);
+    pm_vec3 b = pm_shapes_inside(&rng, 1.0);
+    pm_vec3 c = pm_shapes_inside(&rng, 1.0);
+    pm_vec3 axis = pm_shapes_direction(&rng);
+    double radius = 0.2 + 0.8 * pm_rng_draw(&rng);
+    double length = 0.2 + 0.8 * pm_rng_draw(&rng);
+    shapes[0] = pm_shapes_rectangle(a, pm_vec_sub(b, a), pm_vec_sub(c, a));
+    shapes[1] = pm_shapes_sphere(a, radius);
+    shapes[2] = pm_shapes_disk(b, axis, radius);
+    shapes[3] = pm_shapes_cylinder(c, axis, length, radius);
+    shapes[4] = pm_shapes_triangle(a, b, c);
+}
+
 pm_scene pm_shapes_scene(pm_shape *shapes, size_t count)
 {
     return (pm_scene){

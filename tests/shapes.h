@@ -26,6 +26,11 @@ void pm_shapes_free(pm_shape *shapes, size_t count);
 /// turned box the edges that meet differ by rounding.
 void pm_shapes_room(const pm_frame *turned, pm_vec3 center, double half, pm_shape walls[6]);
 
+/// One shape of each type, of sizes and in coordinates of about 1, other ones for every seed.
+/// The mesh is one triangle.
+enum { PM_SHAPES_KINDS = 5 };
+void pm_shapes_each(uint64_t seed, pm_shape shapes[PM_SHAPES_KINDS]);
+
 /// A scene of these shapes; it borrows them.
 pm_scene pm_shapes_scene(pm_shape *shapes, size_t count);
 
