@@ -59,7 +59,7 @@ GSL_LIBS := -lgsl -lgslcblas
 VTK_MODULES := IOXML IOImage RenderingAnnotation RenderingOpenGL2 RenderingFreeType \
   InteractionStyle RenderingUI RenderingCore FiltersSources CommonColor CommonExecutionModel \
   CommonTransforms CommonDataModel CommonMath CommonCore sys
-VTK_LIBS := -Wl,--as-needed $(VTK_MODULES:%=-lvtk%-$(VTK_SUFFIX)) -lGLEW -lEGL -lX11 -ldl
+VTK_LIBS := -Wl,--as-needed $(VTK_MODULES:%=-lvtk%-$(VTK_SUFFIX)) -lGLEW -lEGL -ldl
 
 # A make below this one, with as many jobs as there are cores unless told otherwise.
 AGAIN = $(MAKE) --no-print-directory $(if $(findstring -j,$(MAKEFLAGS)),,-j$(JOBS))

@@ -1,0 +1,56 @@
+#!/bin/sh
+# The demonstration behind `make demo`: demo.sh BIN, from the top folder. Renders the Cornell box
+# with a mirror and a glass sphere, and pictures its photons, their paths, the tree over them
+# and the irradiance of the floor. Everything lands in build/demo.
+set -eu
+
+bin=$1
+scene=scenes/cornell-spheres.xml
+out=build/demo
+photons="--global-photons 200000 --caustic-photons 100000"
+mkdir -p "$out"
+
+step() {
+    echo "- $*"
+}
+
+step "render $scene: 512x512, 200000 + 100000 photons, gather 16"
+"$bin/render" $scene --size 512x512 --spp 1 --gather 16 $photons \
+    -o $out/cornell-spheres.exr --png $out/cornell-spheres.png \
+    --report $out/cornell-spheres.json >$out/stages.txt
+
+step "store the photon maps"
+"$bin/storage" $scene $photons -o $out/photons.ply --report $out/storage.json >$out/storage.txt
+
+step "trace paths"
+"$bin/tracing" $scene -n 2000 --dump $out/paths.csv >$out/tracing.txt
+
+step "estimate the irradiance of the floor"
+"$bin/radiance" $scene $photons -k 100 --on floor --grid 128x128 --dump $out/floor.csv \
+    --report $out/floor.json >$out/floor.txt
+
+if [ -x "$bin/view" ]; then
+    step "draw photons, paths, tree and irradiance"
+    "$bin/view" photons $out/photons.ply $out/photons.caustic.ply --scene $scene \
+        -o $out/photons.png
+    "$bin/view" paths $out/paths.csv --scene $scene -o $out/paths.png
+    "$bin/view" tree $out/photons.ply --scene $scene -o $out/tree.png
+    "$bin/view" irradiance $out/floor.csv --scene $scene -o $out/irradiance.png
+    drawn="
+  photon positions         $out/photons.png
+  photon paths             $out/paths.png
+  kd-tree splits by depth  $out/tree.png
+  irradiance on the floor  $out/irradiance.png"
+else
+    drawn="
+  no pictures of photons: VTK is missing; install libvtk9-dev"
+fi
+
+cat <<END
+
+Pictures
+  the scene, all layers    $out/cornell-spheres.exr
+  the scene, for a screen  $out/cornell-spheres.png$drawn
+
+END
+cat $out/stages.txt
