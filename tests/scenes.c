@@ -1,0 +1,186 @@
+// Scenes by hand. Invariant: what the reader would compute (flux, bounds, radius) is set as its
+// contract says; nothing else of a scene is.
+#include "scenes.h"
+
+#include "intersect_plain.h"
+#include "shape.h"
+#include "shapes.h"
+#include "test.h"
+
+void pm_scenes_begin(pm_scenes *s)
+{
+    *s = (pm_scenes){0};
+    s->scene = (pm_scene){
+        .path = "test.xml",
+        .materials = s->materials,
+        .shapes = s->shapes,
+        .lights = s->lights,
+    };
+}
+
+static int add_material(pm_scenes *s, pm_material material)
+{
+    CHECK(s->scene.material_count < PM_SCENES_MATERIALS);
+    s->materials[s->scene.material_count] = material;
+    return s->scene.material_count++;
+}
+
+int pm_scenes_diffuse(pm_scenes *s, pm_spectrum albedo)
+{
+    return add_material(
+        s, (pm_material){.type = PM_BSDF_DIFFUSE, .id = "diffuse", .reflectance = albedo});
+}
+
+int pm_scenes_mirror(pm_scenes *s, pm_spectrum reflectance)
+{
+    return add_material(s, (pm_material){.type = PM_BSDF_CONDUCTOR,
+                                         .id = "mirror",
+                                         .specular_reflectance = reflectance,
+                                         .perfect_mirror = true});
+}
+
+int pm_scenes_glass(pm_scenes *s, double ior)
+{
+    return add_material(s, (pm_material){.type = PM_BSDF_DIELECTRIC,
+                                         .id = "glass",
+                                         .specular_reflectance = pm_gray(1.0),
+                                         .specular_transmittance = pm_gray(1.0),
+                                         .int_ior = ior,
+                                         .ext_ior = 1.0});
+}
+
+int pm_scenes_metal(pm_scenes *s, pm_spectrum eta, pm_spectrum k)
+{
+    return add_material(s, (pm_material){.type = PM_BSDF_CONDUCTOR,
+                                         .id = "metal",
+                                         .specular_reflectance = pm_gray(1.0),
+                                         .eta = eta,
+                                         .k = k});
+}
+
+int pm_scenes_null(pm_scenes *s)
+{
+    return add_material(s, (pm_material){.type = PM_BSDF_NULL, .id = "null"});
+}
+
+int pm_scenes_add(pm_scenes *s, pm_shape shape, int front, int back)
+{
+    CHECK(s->scene.shape_count < PM_SCENES_SHAPES);
+    shape.material[0] = front;
+    shape.material[1] = back;
+    s->shapes[s->scene.shape_count] = shape;
+    return s->scene.shape_count++;
+}
+
+int pm_scenes_wear(pm_scenes *s, pm_shape shape, int material)
+{
+    return pm_scenes_add(s, shape, material, material);
+}
+
+int pm_scenes_room(pm_scenes *s, double half, int material)
+{
+    const pm_frame upright = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
+    pm_shape walls[6];
+    pm_shapes_room(&upright, pm_vec(0.0, 0.0, 0.0), half, walls);
+    int first = s->scene.shape_count;
+    for (int i = 0; i < 6; i++) {
+        pm_scenes_add(s, walls[i], material, PM_NONE);
+    }
+    return first;
+}
+
+int pm_scenes_globe(pm_scenes *s, double radius, int material)
+{
+    pm_shape globe = pm_shapes_sphere(pm_vec(0.0, 0.0, 0.0), radius);
+    globe.flipped = true;
+    return pm_scenes_add(s, globe, material, PM_NONE);
+}
+
+pm_shape pm_scenes_square(double width, double z, bool down)
+{
+    double half = 0.5 * width;
+    pm_vec3 along_x = pm_vec(width, 0.0, 0.0);
+    pm_vec3 along_y = pm_vec(0.0, width, 0.0);
+    pm_vec3 corner = pm_vec(-half, -half, z);
+    return down ? pm_shapes_rectangle(corner, along_y, along_x)
+                : pm_shapes_rectangle(corner, along_x, along_y);
+}
+
+static int add_light(pm_scenes *s, pm_light light)
+{
+    CHECK(s->scene.light_count < PM_SCENES_LIGHTS);
+    light.medium = PM_NONE;
+    s->lights[s->scene.light_count] = light;
+    return s->scene.light_count++;
+}
+
+int pm_scenes_point(pm_scenes *s, pm_vec3 position, pm_spectrum flux)
+{
+    return add_light(s, (pm_light){.type = PM_LIGHT_POINT,
+                                   .id = "point",
+                                   .shape = PM_NONE,
+                                   .position = position,
+                                   .emitted = pm_spectrum_scale(flux, 0.25 / PM_PI),
+                                   .flux = flux});
+}
+
+int pm_scenes_lamp(pm_scenes *s, int shape, pm_spectrum radiance)
+{
+    double through = PM_PI * s->shapes[shape].area;
+    s->shapes[shape].light = s->scene.light_count;
+    return add_light(s, (pm_light){.type = PM_LIGHT_AREA,
+                                   .id = "lamp",
+                                   .shape = shape,
+                                   .emitted = radiance,
+                                   .flux = pm_spectrum_scale(radiance, through)});
+}
+
+int pm_scenes_sun(pm_scenes *s, pm_vec3 direction, pm_spectrum irradiance)
+{
+    return add_light(s, (pm_light){.type = PM_LIGHT_DIRECTIONAL,
+                                   .id = "sun",
+                                   .shape = PM_NONE,
+                                   .direction = pm_vec_normalize(direction),
+                                   .emitted = irradiance});
+}
+
+static void measure(pm_scene *scene)
+{
+    scene->low = pm_vec(INFINITY, INFINITY, INFINITY);
+    scene->high = pm_vec_negate(scene->low);
+    for (int i = 0; i < scene->shape_count; i++) {
+        uint32_t count = pm_shape_primitives(&scene->shapes[i]);
+        for (uint32_t j = 0; j < count; j++) {
+            pm_box box = pm_shape_box(&scene->shapes[i], j);
+            scene->low = pm_vec_min(scene->low, box.low);
+            scene->high = pm_vec_max(scene->high, box.high);
+        }
+    }
+    for (int i = 0; i < scene->light_count; i++) {
+        if (scene->lights[i].type == PM_LIGHT_POINT) {
+            scene->low = pm_vec_min(scene->low, scene->lights[i].position);
+            scene->high = pm_vec_max(scene->high, scene->lights[i].position);
+        }
+    }
+    pm_vec3 far_corner = pm_vec_max(scene->high, pm_vec_negate(scene->low));
+    scene->radius = pm_vec_length(far_corner);
+}
+
+void pm_scenes_ready(pm_scenes *s)
+{
+    measure(&s->scene);
+    double disc = PM_PI * s->scene.radius * s->scene.radius;
+    for (int i = 0; i < s->scene.light_count; i++) {
+        pm_light *light = &s->lights[i];
+        if (light->type == PM_LIGHT_DIRECTIONAL) {
+            light->flux = pm_spectrum_scale(light->emitted, disc);
+        }
+    }
+    CHECK_OK(pm_intersect_plain(&s->scene, &s->world));
+}
+
+void pm_scenes_free(pm_scenes *s)
+{
+    pm_intersector_free(&s->world);
+    pm_shapes_free(s->shapes, (size_t)s->scene.shape_count);
+}

@@ -1,0 +1,65 @@
+// Whole scenes made by hand, in memory: materials, shapes (tests/shapes.h), lights, and ray
+// queries by the plain intersector. In coordinates that are already centred.
+//
+//     pm_scenes s;
+//     pm_scenes_begin(&s);
+//     pm_scenes_room(&s, 1.0, pm_scenes_diffuse(&s, pm_gray(0.5)));
+//     pm_scenes_point(&s, pm_vec(0.0, 0.0, 0.0), pm_gray(1.0));
+//     pm_scenes_ready(&s);
+//     ...
+//     pm_scenes_free(&s);
+#ifndef PM_SCENES_H
+#define PM_SCENES_H
+
+#include "intersect.h"
+#include "scene.h"
+
+enum { PM_SCENES_SHAPES = 24, PM_SCENES_MATERIALS = 12, PM_SCENES_LIGHTS = 12 };
+
+/// Fixed in memory from begin to free: `scene` points into it.
+typedef struct {
+    pm_scene scene;
+    pm_intersector world;
+    pm_shape shapes[PM_SCENES_SHAPES];
+    pm_material materials[PM_SCENES_MATERIALS];
+    pm_light lights[PM_SCENES_LIGHTS];
+} pm_scenes;
+
+void pm_scenes_begin(pm_scenes *s);
+
+/// Each adds a material and returns its index.
+int pm_scenes_diffuse(pm_scenes *s, pm_spectrum albedo);
+int pm_scenes_mirror(pm_scenes *s, pm_spectrum reflectance);
+int pm_scenes_glass(pm_scenes *s, double ior); // in air of index 1
+int pm_scenes_metal(pm_scenes *s, pm_spectrum eta, pm_spectrum k);
+int pm_scenes_null(pm_scenes *s);
+
+/// Adds a shape with materials on the side of its normal and behind; returns its index. The
+/// scene owns what a mesh holds.
+int pm_scenes_add(pm_scenes *s, pm_shape shape, int front, int back);
+
+/// The same, wearing one material on both sides.
+int pm_scenes_wear(pm_scenes *s, pm_shape shape, int material);
+
+/// Six walls from -half to half (x -, +, y -, +, z -, +), normals inward, black from outside.
+/// Returns the index of the first.
+int pm_scenes_room(pm_scenes *s, double half, int material);
+
+/// A sphere about the origin that faces inward.
+int pm_scenes_globe(pm_scenes *s, double radius, int material);
+
+/// A square of side `width` across z at height z; it faces up, or down.
+pm_shape pm_scenes_square(double width, double z, bool down);
+
+/// Each adds a light and returns its index. Point: flux [W]. Area: radiance on a shape. Sun:
+/// irradiance on a plane facing it; its flux is set by pm_scenes_ready().
+int pm_scenes_point(pm_scenes *s, pm_vec3 position, pm_spectrum flux);
+int pm_scenes_lamp(pm_scenes *s, int shape, pm_spectrum radiance);
+int pm_scenes_sun(pm_scenes *s, pm_vec3 direction, pm_spectrum irradiance);
+
+/// Bounds, radius, flux of the suns, ray queries.
+void pm_scenes_ready(pm_scenes *s);
+
+void pm_scenes_free(pm_scenes *s);
+
+#endif
