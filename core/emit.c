@@ -147,10 +147,9 @@ static pm_status emit_directional(const pm_scene *scene, const pm_light *light,
     return PM_OK;
 }
 
-pm_status pm_emit_ray(const pm_scene *scene, const pm_light *light,
-                      const pm_projection *projection, pm_rng *rng, pm_ray *ray)
+static pm_status emit_by_type(const pm_scene *scene, const pm_light *light,
+                              const pm_projection *projection, pm_rng *rng, pm_ray *ray)
 {
-    *ray = (pm_ray){.t_max = INFINITY, .medium = light->medium};
     switch (light->type) {
     case PM_LIGHT_POINT:
         return emit_point(light, projection, rng, ray);
@@ -160,6 +159,15 @@ pm_status pm_emit_ray(const pm_scene *scene, const pm_light *light,
         return emit_directional(scene, light, projection, rng, ray);
     }
     return PM_FAIL(PM_EINPUT, "unknown light type %d", (int)light->type);
+}
+
+pm_status pm_emit_ray(const pm_scene *scene, const pm_light *light,
+                      const pm_projection *projection, pm_rng *rng, pm_ray *ray)
+{
+    pm_ray leaving = {.t_max = INFINITY, .medium = light->medium};
+    PM_TRY(emit_by_type(scene, light, projection, rng, &leaving));
+    *ray = leaving;
+    return PM_OK;
 }
 
 /// Which light sends photon `photon`. Of n photons with s for a light, the light sends those at
