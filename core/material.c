@@ -10,17 +10,19 @@ static double square(double x)
 /// cosine of the refracted direction, 0 on total reflection.
 static double dielectric_reflectance(double cos_i, double eta, double *cos_t)
 {
-    double sin2_t = square(eta) * fmax(0.0, 1.0 - square(cos_i));
-    *cos_t = sqrt(fmax(0.0, 1.0 - sin2_t));
-    if (sin2_t >= 1.0 && eta > 1.0) {
+    if (eta == 1.0) { // both sides alike, at grazing angles too
+        *cos_t = cos_i;
+        return 0.0;
+    }
+    // 1 - eta^2 sin^2, in a form that loses no digits where eta is near 1 or light grazes.
+    double cos2_t = (1.0 - eta) * (1.0 + eta) + square(eta * cos_i);
+    if (cos2_t <= 0.0) {
         *cos_t = 0.0;
         return 1.0;
     }
+    *cos_t = sqrt(cos2_t);
     double across = eta * cos_i + *cos_t;
     double along = cos_i + eta * *cos_t;
-    if (across == 0.0 || along == 0.0) {
-        return eta == 1.0 ? 0.0 : 1.0; // exactly grazing
-    }
     double r_s = (eta * cos_i - *cos_t) / across;
     double r_p = (cos_i - eta * *cos_t) / along;
     return 0.5 * (square(r_s) + square(r_p));
@@ -31,10 +33,13 @@ static double conductor_reflectance(double cos_i, double eta, double k)
 {
     double cos2 = square(cos_i);
     double sin2 = 1.0 - cos2;
-    double t0 = square(eta) - square(k) - sin2;
+    double t0 = (eta - 1.0) * (eta + 1.0) - square(k) + cos2; // eta^2 - k^2 - sin^2
     double a2_plus_b2 = sqrt(square(t0) + 4.0 * square(eta) * square(k));
     double t1 = a2_plus_b2 + cos2;
     double t2 = 2.0 * cos_i * sqrt(fmax(0.0, 0.5 * (a2_plus_b2 + t0)));
+    if (t1 + t2 == 0.0) { // index 1, exactly grazing
+        return 0.0;
+    }
     double r_s = (t1 - t2) / (t1 + t2);
     double t3 = cos2 * a2_plus_b2 + square(sin2);
     double t4 = t2 * sin2;
