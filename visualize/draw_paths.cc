@@ -20,9 +20,9 @@ const event_look looks[] = {
     {'S', PM_COLOUR_SKY, "mirror or glass"},
     {'D', PM_COLOUR_ORANGE, "diffuse bounce"},
     {'V', PM_COLOUR_GREEN, "scattered in a medium"},
-    {'A', PM_COLOUR_VERMILLION, "absorbed"},
-    {'E', PM_COLOUR_WHITE, "escaped"},
-    {'C', PM_COLOUR_PURPLE, "cut: too many bounces"},
+    {'A', PM_COLOUR_PURPLE, "absorbed"},
+    {'E', PM_COLOUR_WHITE, "escaped (line fades)"},
+    {'C', PM_COLOUR_VERMILLION, "cut: too many bounces"},
 };
 
 const event_look &look_of(char event)
@@ -35,30 +35,37 @@ const event_look &look_of(char event)
     return looks[0];
 }
 
-/// One entry for each event that occurs in what is drawn.
-pm_status add_legend(pm_figure *figure, const bool seen[128])
+/// How often each event occurs in what is drawn, by its letter.
+typedef uint64_t event_counts[128];
+
+pm_status add_legend(pm_figure *figure, const event_counts &counts)
 {
-    std::vector<pm_legend_entry> entries;
+    std::vector<std::string> texts;
     for (const event_look &l : looks) {
-        if (seen[static_cast<int>(l.event)] && l.event != 'E') {
-            entries.push_back({PM_SWATCH_DOT, pm_colour_named(l.colour), l.text});
+        texts.push_back(l.text + (": " + std::to_string(counts[static_cast<int>(l.event)])));
+    }
+    std::vector<pm_legend_entry> entries;
+    for (size_t i = 0; i < texts.size(); i++) {
+        if (counts[static_cast<int>(looks[i].event)] > 0) {
+            entries.push_back({looks[i].event == 'E' ? PM_SWATCH_NONE : PM_SWATCH_DOT,
+                               pm_colour_named(looks[i].colour), texts[i].c_str()});
         }
     }
     PM_TRY(pm_figure_legend(figure, "dot: what happens there", entries.data(),
                             static_cast<int>(entries.size())));
     const pm_legend_entry note[] = {
-        {PM_SWATCH_NONE, pm_colour_named(PM_COLOUR_WHITE), "in the colour of the event it"},
-        {PM_SWATCH_NONE, pm_colour_named(PM_COLOUR_WHITE), "starts from; fades: escaped"},
+        {PM_SWATCH_NONE, pm_colour_named(PM_COLOUR_WHITE), "in the colour of the event"},
+        {PM_SWATCH_NONE, pm_colour_named(PM_COLOUR_WHITE), "that it starts from"},
     };
     return pm_figure_legend(figure, "line: on the way", note, 2);
 }
 
 void add_path(const pm_path_vertex *path, uint64_t count, pm_drawing *lines, pm_drawing *dots,
-              bool seen[128])
+              event_counts *counts)
 {
     for (uint64_t i = 0; i < count; i++) {
         pm_colour colour = pm_colour_named(look_of(path[i].event).colour);
-        seen[static_cast<int>(path[i].event)] = true;
+        (*counts)[static_cast<int>(path[i].event)]++;
         if (i + 1 < count && path[i + 1].event == 'E') {
             lines->fading_line(path[i].position, path[i + 1].position, colour, path_opacity);
         } else if (i + 1 < count) {
@@ -78,16 +85,16 @@ pm_status pm_draw_paths(pm_figure *figure, const pm_path_set *paths, uint64_t mo
     return pm_figure_guard("paths", [&] {
         pm_drawing lines;
         pm_drawing dots;
-        bool seen[128] = {};
+        event_counts counts = {};
         uint64_t count = paths->path_count < most ? paths->path_count : most;
         for (uint64_t i = 0; i < count; i++) {
             uint64_t p = i * paths->path_count / count;
             add_path(&paths->vertices[paths->first[p]], paths->first[p + 1] - paths->first[p],
-                     &lines, &dots, seen);
+                     &lines, &dots, &counts);
         }
         figure->renderer->AddActor(lines.actor(figure->pixels(1.7), 1.0));
         figure->renderer->AddActor(dots.actor(1.0, figure->pixels(6.0)));
         *drawn = count;
-        return add_legend(figure, seen);
+        return add_legend(figure, counts);
     });
 }

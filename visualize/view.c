@@ -189,16 +189,14 @@ static const kind kinds[] = {
     {"irradiance", 1, "Irradiance", draw_irradiance},
 };
 
-static pm_status find_kind(const char *name, const kind **found)
+static const kind *find_kind(const char *name)
 {
     for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
         if (strcmp(kinds[i].name, name) == 0) {
-            *found = &kinds[i];
-            return PM_OK;
+            return &kinds[i];
         }
     }
-    return pm_status_fail(
-        PM_EINPUT, "view: KIND must be photons, paths, tree or irradiance, got \"%s\"", name);
+    return NULL;
 }
 
 static json_t *vector_json(pm_vec3 v)
@@ -254,12 +252,16 @@ static pm_status check_files(const picture *p, const kind *k)
 
 static pm_status run(const pm_options *options, const pm_view_options *view)
 {
-    const kind *k = NULL;
+    const kind *k = find_kind(options->positional[0]);
+    if (k == NULL) {
+        return pm_status_fail(
+            PM_EINPUT, "view: KIND must be photons, paths, tree or irradiance, got \"%s\"",
+            options->positional[0]);
+    }
     picture p = {.options = options,
                  .view = view,
                  .files = options->positional + 1,
                  .file_count = options->positional_count - 1};
-    PM_TRY(find_kind(options->positional[0], &k));
     PM_TRY(check_files(&p, k));
     PM_TRY(pm_scene_read(view->scene, options->define, options->define_count, false, &p.scene));
     pm_status status = make(&p, k);
