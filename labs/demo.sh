@@ -26,7 +26,7 @@ step "trace paths"
 "$bin/tracing" $scene -n 2000 --dump $out/paths.csv >$out/tracing.txt
 
 step "estimate the irradiance of the floor"
-"$bin/radiance" $scene $photons -k 100 --on floor --grid 128x128 --dump $out/floor.csv \
+"$bin/radiance" $scene -n 200000 -k 100 --on floor --grid 128x128 --dump $out/floor.csv \
     --report $out/floor.json >$out/floor.txt
 
 if [ -x "$bin/view" ]; then

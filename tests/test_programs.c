@@ -13,13 +13,13 @@
 
 static const char good_scene[] = "scenes/cornell-spheres.xml";
 
-// Every program that reads a scene, in its shortest good form; all write the file {O}.
+// Every program that reads a scene, in a short good form; all write the file {O}.
 static const char *const scene_lines[] = {
     "emission {S} -n 2000 --dump {O}",
     "tracing {S} -n 2000 --dump {O}",
     "storage {S} -n 2000 -o {O}",
-    "balancing {S} -n 2000 --report {O}",
-    "radiance {S} -n 2000 --at 0,-0.9,0 --normal 0,1,0 --report {O}",
+    "balancing {S} -n 2000 --json --report {O}",
+    "radiance {S} -n 2000 --at 0,-0.9,0 --normal 0,1,0 --json --report {O}",
     "render {S} --size 12x12 --photons 2000 --gather 2 --spp 1 -o {O}",
 };
 enum { SCENE_LINES = sizeof scene_lines / sizeof scene_lines[0] };
@@ -56,9 +56,11 @@ static void accept_good_lines(void)
         pm_test_ran ran = pm_command_run(scene_lines[i], good_scene, pm_command_path(name));
         CHECK_THAT(ran.exit_code == 0, "%s: exit code %d: %s", scene_lines[i], ran.exit_code,
                    ran.err);
+        struct stat made;
+        CHECK_THAT(stat(pm_command_path(name), &made) == 0 && made.st_size > 0,
+                   "%s: writes no file", scene_lines[i]);
         pm_test_ran_free(&ran);
     }
-    CHECK(pm_command_count_files() == (int)SCENE_LINES);
 }
 
 static void refuse_bad_scenes(void)
@@ -208,7 +210,7 @@ static void stop_at_interrupt(void)
         "storage {S} -n 20000000 -o {O}",
         "balancing {S} -n 20000000 --report {O}",
         "radiance {S} -n 1000000 --runs 1000 --at 0,-0.9,0 --normal 0,1,0 --report {O}",
-        "render {S} --size 2000x2000 --photons 20000 --gather 2000 --spp 64 -o {O}",
+        "render {S} --size 2000x2000 --photons 20000 --gather 200 --spp 64 -o {O}",
         "render {S} --size 16x16 --photons 2000000000 -o {O}",
     };
     pm_test_folder();
