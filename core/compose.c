@@ -9,6 +9,7 @@ typedef struct {
     pm_ray ray;
     pm_spectrum weight; // factor on radiance found at its end
     uint32_t specular;  // S events so far
+    pm_vec3 from;       // where it began
 } pm_path;
 
 /// The next surface on the ray that does something; null surfaces are passed.
@@ -55,11 +56,11 @@ static pm_status ask_all(const pm_compose *compose, const pm_vertex *at, const p
     return PM_OK;
 }
 
-static void note_first(const pm_vertex *at, pm_eye *eye)
+static void note_first(const pm_vertex *at, const pm_path *path, pm_eye *eye)
 {
     if (!eye->hit) {
         eye->hit = true;
-        eye->depth = at->hit.t;
+        eye->depth = pm_vec_length(pm_vec_sub(at->hit.position, path->from));
         eye->normal = at->lobes.normal;
     }
 }
@@ -83,6 +84,18 @@ static int specular_lobes(const pm_lobes *lobes, pm_lobe *only, int *place)
     return count;
 }
 
+/// Whether the path may have one more S event here; counts the ends that only the cap makes.
+static bool may_turn(const pm_compose *compose, const pm_path *path, const pm_vertex *at,
+                     uint64_t *cut)
+{
+    pm_lobe lobes[PM_LOBES_MAX];
+    int place[PM_LOBES_MAX];
+    bool turns = specular_lobes(&at->lobes, lobes, place) > 0;
+    bool capped = path->specular >= compose->max_specular;
+    *cut += turns && capped;
+    return turns && !capped;
+}
+
 /// The path after S lobe `which`; `weight` holds that lobe's albedo already.
 static pm_path turned(const pm_path *path, const pm_vertex *at, int which, pm_spectrum weight,
                       pm_rng *rng)
@@ -94,6 +107,7 @@ static pm_path turned(const pm_path *path, const pm_vertex *at, int which, pm_sp
         .ray = pm_hit_ray(&at->hit, scatter.wo, path->ray.wavelength, scatter.medium),
         .weight = weight,
         .specular = path->specular + 1,
+        .from = path->from,
     };
 }
 
@@ -139,14 +153,10 @@ static pm_status follow(const pm_compose *compose, pm_path path, pm_vertex at, u
             return PM_OK;
         }
         at.vertex = ++eye->vertices;
-        note_first(&at, eye);
+        note_first(&at, &path, eye);
         eye->emitter = eye->emitter || emits_towards(compose->world->scene, &at);
         PM_TRY(ask_all(compose, &at, &path, eye));
-        if (!compose->wanted[PM_LAYER_SPECULAR]) {
-            return PM_OK;
-        }
-        if (path.specular >= compose->max_specular) {
-            eye->cut++;
+        if (!compose->wanted[PM_LAYER_SPECULAR] || !may_turn(compose, &path, &at, &eye->cut)) {
             return PM_OK;
         }
         pm_rng rng = pm_rng_at(&compose->source, index, at.vertex);
@@ -162,26 +172,27 @@ pm_status pm_compose_eye(const pm_compose *compose, const pm_ray *ray, uint64_t 
                          uint32_t sample, uint64_t index, pm_eye *eye)
 {
     pm_vertex at = {.pixel = pixel, .sample = sample};
-    pm_path path = {.ray = *ray, .weight = pm_gray(1.0)};
+    pm_path path = {.ray = *ray, .weight = pm_gray(1.0), .from = ray->origin};
     return follow(compose, path, at, index, eye);
 }
 
 pm_status pm_compose_gather(const pm_compose *compose, const pm_ray *ray, const pm_vertex *at,
-                            pm_rng *rng, pm_spectrum *radiance)
+                            pm_rng *rng, pm_spectrum *radiance, uint64_t *cut)
 {
     *radiance = pm_gray(0.0);
-    pm_path path = {.ray = *ray, .weight = pm_gray(1.0)};
+    pm_path path = {.ray = *ray, .weight = pm_gray(1.0), .from = ray->origin};
     pm_vertex end = *at;
-    for (bool goes_on = true; goes_on && path.specular < compose->max_specular;) {
-        if (!next_vertex(compose, &path.ray, &end)) {
-            return PM_OK;
-        }
+    bool goes_on = true;
+    while (goes_on && next_vertex(compose, &path.ray, &end)) {
         if (end.lobes.diffuse && compose->ask.global != NULL) {
             pm_spectrum leaving = pm_gray(0.0);
             PM_TRY(compose->ask.global(compose->ask.context, &end, &leaving));
             *radiance = pm_spectrum_add(*radiance, pm_spectrum_mul(path.weight, leaving));
         }
-        PM_TRY(choose_lobe(compose, &path, &end, rng, &goes_on));
+        goes_on = may_turn(compose, &path, &end, cut);
+        if (goes_on) {
+            PM_TRY(choose_lobe(compose, &path, &end, rng, &goes_on));
+        }
     }
     return PM_OK;
 }

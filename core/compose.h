@@ -50,7 +50,7 @@ typedef struct {
     double depth;      // [m] from the eye to the first surface
     pm_vec3 normal;    // of the first surface, on the eye's side
     uint32_t vertices; // met so far
-    uint64_t cut;      // paths ended by max_specular
+    uint64_t cut; // paths ended by max_specular, where they had another S event before them
 } pm_eye;
 
 /// Follows an eye ray through mirrors and glass and asks the sources for light, layer by layer.
@@ -68,7 +68,8 @@ pm_status pm_compose_eye(const pm_compose *compose, const pm_ray *ray, uint64_t 
 /// @param rng       drawn from at S events
 /// @param at        pixel, sample and vertex that the ray belongs to
 /// @param radiance  [out] arriving along the ray
+/// @param cut       [in, out] counts rays ended by max_specular
 pm_status pm_compose_gather(const pm_compose *compose, const pm_ray *ray, const pm_vertex *at,
-                            pm_rng *rng, pm_spectrum *radiance);
+                            pm_rng *rng, pm_spectrum *radiance, uint64_t *cut);
 
 #endif

@@ -113,7 +113,7 @@ static pm_status ask_indirect_gathered(void *context, const pm_vertex *at,
         uint32_t place = PLACE_GATHER + at->vertex * rays + i;
         pm_rng rng = pm_rng_at(&gather->compose->source, at->pixel * spp + at->sample, place);
         pm_spectrum arriving;
-        PM_TRY(pm_compose_gather(gather->compose, &ray, at, &rng, &arriving));
+        PM_TRY(pm_compose_gather(gather->compose, &ray, at, &rng, &arriving, &gather->cut));
         pm_spectrum response = pm_spectrum_scale(pm_material_evaluate(&at->lobes, wo), PM_PI);
         sum = pm_spectrum_add(sum, pm_spectrum_mul(response, arriving));
     }

@@ -19,10 +19,12 @@ typedef struct {
     const pm_photon_map *map[PM_MAP_COUNT]; // balanced; NULL: not in this picture
     pm_gather_settings settings;
     pm_neighbour *scratch; // settings.estimate.k entries
-    // what the estimates in the global map used, summed since the user set them to 0
+    // what the estimates in the global map used, summed since the user set them to 0; and what
+    // was cut
     double radius_sum;
     uint64_t found_sum;
     uint64_t lookups;
+    uint64_t cut; // gather rays ended after too many S events in a row
 } pm_gather;
 
 /// Points compose->ask at `gather` and the maps that it has.

@@ -13,7 +13,8 @@ static inline void pm_lattice_point(const double shift[2], uint32_t i, uint32_t 
                                     double u[2])
 {
     double step = 0.61803398874989485 * i + shift[1];
-    u[0] = (i + shift[0]) / count;
+    double across = (double)i / count + shift[0];
+    u[0] = across - floor(across);
     u[1] = step - floor(step);
 }
 

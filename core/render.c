@@ -168,7 +168,7 @@ static void run_tiles(pm_eye_pass *pass)
         }
 #pragma omp critical
         {
-            pass->report->cut += worker.cut;
+            pass->report->cut += worker.cut + worker.gather.cut;
             pass->report->lookups += worker.lookups;
         }
         free(worker.gather.scratch);

@@ -36,7 +36,7 @@ typedef struct {
     double seconds;   // on the wall
     double cpu;       // [s] of all threads
     uint64_t lookups; // in the global map
-    uint64_t cut;     // eye paths ended after too many S events in a row
+    uint64_t cut;     // eye paths and gather rays ended after too many S events in a row
 } pm_eye_report;
 
 /// Traces and balances the maps that the scene needs and `settings` does not switch off.

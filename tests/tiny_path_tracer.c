@@ -1,0 +1,138 @@
+// Invariant: a path goes on by one lobe with the lobe's mean albedo as its probability, and
+// what it has met is spelled in letters.
+#include "tiny_path_tracer.h"
+
+#include "camera.h"
+#include "material.h"
+#include "test.h"
+
+#include <string.h>
+
+enum { BLOCK = 1000, LETTERS = 256 };
+
+typedef struct {
+    pm_ray ray;
+    pm_spectrum weight;
+    char met[LETTERS]; // S and D, from the eye on
+    int events;
+} tiny_path;
+
+typedef struct {
+    pm_spectrum sum[PM_LAYER_COUNT];
+    pm_spectrum square[PM_LAYER_COUNT];
+} tally;
+
+static pm_layer sort_path(const char *met)
+{
+    if (met[0] == '\0') {
+        return PM_LAYER_EMISSION;
+    }
+    if (met[0] == 'S') {
+        return PM_LAYER_SPECULAR;
+    }
+    if (met[1] == '\0') {
+        return PM_LAYER_DIRECT;
+    }
+    return strchr(met + 1, 'D') == NULL ? PM_LAYER_CAUSTIC : PM_LAYER_INDIRECT;
+}
+
+static void see_lamp(const pm_scene *scene, const pm_hit *hit, const tiny_path *path,
+                     pm_spectrum layer[PM_LAYER_COUNT])
+{
+    int light = scene->shapes[hit->shape].light;
+    if (light == PM_NONE || pm_vec_dot(path->ray.direction, hit->normal) >= 0.0) {
+        return;
+    }
+    pm_spectrum seen = pm_spectrum_mul(path->weight, scene->lights[light].emitted);
+    pm_layer into = sort_path(path->met);
+    layer[into] = pm_spectrum_add(layer[into], seen);
+}
+
+/// Goes on by one of the lobes; false when the path is absorbed.
+static bool turn(const pm_hit *hit, const pm_lobes *lobes, pm_rng *rng, tiny_path *path)
+{
+    double left = pm_rng_draw(rng);
+    for (int i = 0; i < lobes->count; i++) {
+        double p = pm_spectrum_mean(lobes->lobe[i].albedo);
+        if (left >= p) {
+            left -= p;
+            continue;
+        }
+        pm_scatter scatter;
+        pm_material_sample(lobes, i, rng, &scatter);
+        pm_spectrum factor = pm_spectrum_mul(lobes->lobe[i].albedo, scatter.weight);
+        factor = pm_spectrum_scale(factor, scatter.radiance / p);
+        path->weight = pm_spectrum_mul(path->weight, factor);
+        path->met[path->events++] = lobes->lobe[i].type == PM_LOBE_DIFFUSE ? 'D' : 'S';
+        path->ray = pm_hit_ray(hit, scatter.wo, 0.0, scatter.medium);
+        CHECK(path->events < LETTERS);
+        return true;
+    }
+    return false;
+}
+
+static void follow(const pm_intersector *world, tiny_path *path, pm_rng *rng,
+                   pm_spectrum layer[PM_LAYER_COUNT])
+{
+    pm_hit hit;
+    for (bool goes_on = true; goes_on && pm_closest(world, &path->ray, &hit);) {
+        pm_lobes lobes;
+        pm_material_lobes(world->scene, &hit, pm_vec_negate(path->ray.direction), 0.0, &lobes);
+        CHECK(!lobes.passes);
+        see_lamp(world->scene, &hit, path, layer);
+        goes_on = turn(&hit, &lobes, rng, path);
+    }
+}
+
+static void trace_one(const pm_intersector *world, uint64_t index, tally *block)
+{
+    const pm_rng_source source = {.seed = 7, .stream = PM_STREAM_TEST};
+    pm_rng rng = pm_rng_at(&source, index, 0);
+    double u = pm_rng_draw(&rng);
+    double v = pm_rng_draw(&rng);
+    tiny_path path = {.ray = pm_camera_ray(&world->scene->camera, u, v),
+                      .weight = pm_gray(1.0)};
+    pm_spectrum layer[PM_LAYER_COUNT] = {0};
+    follow(world, &path, &rng, layer);
+    for (int l = 0; l < PM_LAYER_COUNT; l++) {
+        block->sum[l] = pm_spectrum_add(block->sum[l], layer[l]);
+        pm_spectrum square = pm_spectrum_mul(layer[l], layer[l]);
+        block->square[l] = pm_spectrum_add(block->square[l], square);
+    }
+}
+
+static void add(tally *all, const tally *block)
+{
+    for (int l = 0; l < PM_LAYER_COUNT; l++) {
+        all->sum[l] = pm_spectrum_add(all->sum[l], block->sum[l]);
+        all->square[l] = pm_spectrum_add(all->square[l], block->square[l]);
+    }
+}
+
+pm_tiny_picture pm_tiny_trace(const pm_intersector *world, uint32_t paths)
+{
+    for (int i = 0; i < world->scene->light_count; i++) {
+        CHECK(world->scene->lights[i].type == PM_LIGHT_AREA);
+    }
+    int blocks = (int)((paths + BLOCK - 1) / BLOCK);
+    tally all = {0};
+#pragma omp parallel for ordered schedule(dynamic, 1)
+    for (int b = 0; b < blocks; b++) {
+        tally block = {0};
+        for (uint64_t i = 0; i < BLOCK; i++) {
+            trace_one(world, (uint64_t)b * BLOCK + i, &block);
+        }
+#pragma omp ordered
+        add(&all, &block);
+    }
+    pm_tiny_picture picture;
+    double n = (double)blocks * BLOCK;
+    for (int l = 0; l < PM_LAYER_COUNT; l++) {
+        pm_spectrum mean = pm_spectrum_scale(all.sum[l], 1.0 / n);
+        pm_spectrum spread = pm_spectrum_sub(pm_spectrum_scale(all.square[l], 1.0 / n),
+                                             pm_spectrum_mul(mean, mean));
+        picture.mean[l] = mean;
+        picture.variance[l] = pm_spectrum_scale(spread, 1.0 / n);
+    }
+    return picture;
+}
