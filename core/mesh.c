@@ -4,6 +4,8 @@
 // so all of that is checked here.
 #include "mesh.h"
 
+#include "ply.h"
+
 #include <assimp/cimport.h>
 #include <assimp/scene.h>
 #include <errno.h>
@@ -67,52 +69,15 @@ static pm_status read_blob(const char *path, blob *file, char *reason)
     return status;
 }
 
-/// The number behind "element NAME" in a PLY header, or -1 when there is none.
-static long long element_count(const char *header, const char *end, const char *name)
+/// What can be said before Assimp reads: `ply` stays zero for other formats.
+static pm_status check_start(const blob *file, pm_mesh_format format, pm_ply *ply, char *reason)
 {
-    char start[40];
-    snprintf(start, sizeof start, "element %s ", name);
-    for (const char *line = header; line != NULL && line < end;
-         line = strchr(line, '\n') == NULL ? NULL : strchr(line, '\n') + 1) {
-        if (strncmp(line, start, strlen(start)) == 0) {
-            return strtoll(line + strlen(start), NULL, 10);
-        }
-    }
-    return -1;
-}
-
-/// A PLY file must say that it has faces; photons have none.
-static pm_status check_ply(const blob *file, long long *vertices, long long *faces,
-                           char *reason)
-{
-    const char *end = strstr(file->bytes, "end_header");
-    if (strncmp(file->bytes, "ply", 3) != 0 || end == NULL) {
-        return say(reason, PM_EINPUT,
-                   "is not a PLY file: it must begin with \"ply\" and a header");
-    }
-    *vertices = element_count(file->bytes, end, "vertex");
-    *faces = element_count(file->bytes, end, "face");
-    const char *mark = strstr(file->bytes, "photonlab");
-    if (*faces <= 0 && mark != NULL && mark < end) {
-        return say(reason, PM_EINPUT, "is a photon file, not a mesh");
-    }
-    if (*faces <= 0 || *vertices <= 0) {
-        return say(reason, PM_EINPUT,
-                   "holds points without faces, such as a photon file: not a mesh");
-    }
-    return PM_OK;
-}
-
-static pm_status check_start(const blob *file, pm_mesh_format format, long long *vertices,
-                             long long *faces, char *reason)
-{
-    *vertices = -1;
-    *faces = -1;
     if (file->size == 0) {
         return say(reason, PM_EINPUT, "is empty");
     }
     if (format == PM_MESH_PLY) {
-        return check_ply(file, vertices, faces, reason);
+        const char *wrong = pm_ply_check(file->bytes, file->size, ply);
+        return wrong == NULL ? PM_OK : say(reason, PM_EINPUT, "%s", wrong);
     }
     if (strncmp(file->bytes, "ply", 3) == 0) {
         return say(reason, PM_EINPUT, "is a PLY file, not an OBJ file");
@@ -132,8 +97,8 @@ static pm_status measure(const struct aiScene *parts, bool triangles_only, uint6
         for (unsigned f = 0; f < part->mNumFaces; f++) {
             unsigned corners = part->mFaces[f].mNumIndices;
             if (corners < 3) {
-                return say(reason, PM_EINPUT, "face %u has %u corners%s", f + 1, corners,
-                           corners == 0 ? ": the file seems to be cut short" : "");
+                return say(reason, PM_EINPUT, "face %u has %u corners, not three", f + 1,
+                           corners);
             }
             if (corners > 3 && triangles_only) {
                 return say(reason, PM_EINPUT,
@@ -209,24 +174,11 @@ static pm_status take(const struct aiScene *parts, pm_mesh_format format, pm_are
     return PM_OK;
 }
 
-/// What the header promises must be there.
-static pm_status check_whole(const pm_mesh *mesh, long long vertices, long long faces,
-                             char *reason)
-{
-    if (vertices >= 0 && (mesh->vertex_count != vertices || mesh->triangle_count != faces)) {
-        return say(reason, PM_EINPUT,
-                   "is cut short: %u of %lld vertices and %u of %lld faces are there",
-                   mesh->vertex_count, vertices, mesh->triangle_count, faces);
-    }
-    return PM_OK;
-}
-
 static pm_status read_bytes(const blob *file, pm_mesh_format format, pm_arena *arena,
                             pm_mesh *mesh, char *reason)
 {
-    long long vertices;
-    long long faces;
-    PM_TRY(check_start(file, format, &vertices, &faces, reason));
+    pm_ply ply = {0};
+    PM_TRY(check_start(file, format, &ply, reason));
     const struct aiScene *parts = aiImportFileFromMemory(file->bytes, (unsigned)file->size, 0,
                                                          format == PM_MESH_PLY ? "ply" : "obj");
     if (parts == NULL) {
@@ -236,7 +188,12 @@ static pm_status read_bytes(const blob *file, pm_mesh_format format, pm_arena *a
     pm_status status = take(parts, format, arena, &taken, reason);
     aiReleaseImport(parts);
     PM_TRY(status);
-    PM_TRY(check_whole(&taken, vertices, faces, reason));
+    if (format == PM_MESH_PLY &&
+        (taken.vertex_count != ply.vertices || taken.triangle_count != ply.faces)) {
+        return say(reason, PM_EINPUT,
+                   "gives %u vertices and %u faces where its header has others",
+                   taken.vertex_count, taken.triangle_count);
+    }
     *mesh = taken;
     return PM_OK;
 }

@@ -93,7 +93,7 @@ static pm_xml *bsdf_of(pm_scene_file *source, pm_xml *child)
     }
     pm_xml *meant = pm_scene_file_resolve(source, child);
     if (meant != NULL && strcmp(meant->tag, "bsdf") != 0) {
-        PM_FAULT(source, child, "ref id \"%.60s\" is a %s; a bsdf can stand here",
+        PM_FAULT(source, child, "ref id \"%.60s\" names <%s>; only a bsdf can stand here",
                  pm_xml_attribute(child, "id"), meant->tag);
         return NULL;
     }

@@ -6,6 +6,9 @@
 #include <math.h>
 #include <string.h>
 
+/// An axis written with three digits counts as having length 1.
+#define UNIT 1e-3
+
 static const char *text_of(const pm_xml *element, const char *attribute)
 {
     const char *text = pm_xml_attribute(element, attribute);
@@ -90,8 +93,11 @@ static pm_transform read_rotate(pm_scene_file *source, const pm_xml *element)
 {
     pm_vec3 axis = read_triple(source, element, 0.0);
     double angle = attribute_number(source, element, "angle", 0.0);
-    if (pm_vec_reach(axis) == 0.0) {
-        PM_FAULT(source, element, "<rotate> needs an axis that is not zero");
+    if (!(fabs(pm_vec_length(axis) - 1.0) <= UNIT)) {
+        PM_FAULT(
+            source, element,
+            "<rotate> needs an axis of length 1, got length %g: Mitsuba does not normalise it",
+            pm_vec_length(axis));
         return pm_transform_identity();
     }
     return pm_transform_rotate(axis, angle);

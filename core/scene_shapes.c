@@ -168,6 +168,7 @@ static void build_mesh(pm_scene_file *source, const pm_xml *element, pm_mesh_for
                        const pm_transform *to_world, pm_shape *shape)
 {
     const char *name = pm_scene_value_text(element, "filename", NULL);
+    shape->type = PM_SHAPE_MESH;
     if (!pm_scene_value_switch(source, element, "face_normals", false)) {
         PM_FAULT(
             source, element,
@@ -196,7 +197,8 @@ static void build_mesh(pm_scene_file *source, const pm_xml *element, pm_mesh_for
     place_mesh(to_world, shape);
 }
 
-static void build_geometry(pm_scene_file *source, const pm_xml *element, const char *type,
+/// False when nothing could be built.
+static bool build_geometry(pm_scene_file *source, const pm_xml *element, const char *type,
                            const pm_transform *to_world, pm_shape *shape)
 {
     if (strcmp(type, "rectangle") == 0) {
@@ -213,7 +215,10 @@ static void build_geometry(pm_scene_file *source, const pm_xml *element, const c
         build_mesh(source, element, PM_MESH_PLY, to_world, shape);
     } else if (strcmp(type, "obj") == 0) {
         build_mesh(source, element, PM_MESH_OBJ, to_world, shape);
+    } else {
+        return false;
     }
+    return true;
 }
 
 static void check_area(pm_scene_file *source, const pm_xml *element, const pm_shape *shape)
@@ -239,8 +244,9 @@ static void build_shape(pm_scene_file *source, const pm_xml *element, int index)
     shape->flipped = pm_scene_value_switch(source, element, "flip_normals", false);
     pm_transform to_world = pm_scene_value_transform(source, element, "to_world");
     source->shape_origin[index] = to_world.origin;
-    build_geometry(source, element, type, &to_world, shape);
-    if (source->faults.count == before) {
+    bool built = build_geometry(source, element, type, &to_world, shape);
+    bool whole = shape->type != PM_SHAPE_MESH || shape->triangle_count > 0;
+    if (built && whole && source->faults.count == before) {
         check_area(source, element, shape);
     }
 }
