@@ -205,13 +205,13 @@ static void say_when_output_is_full(void)
 static void stop_at_interrupt(void)
 {
     static const char *const lines[] = {
-        "emission {S} -n 2000000000 --dump {O}",
-        "tracing {S} -n 2000000000 --report {O}",
+        "emission {S} -n 200000000 --dump {O}",
+        "tracing {S} -n 200000000 --report {O}",
         "storage {S} -n 20000000 -o {O}",
         "balancing {S} -n 20000000 --report {O}",
         "radiance {S} -n 1000000 --runs 1000 --at 0,-0.9,0 --normal 0,1,0 --report {O}",
         "render {S} --size 2000x2000 --photons 20000 --gather 200 --spp 64 -o {O}",
-        "render {S} --size 16x16 --photons 2000000000 -o {O}",
+        "render {S} --size 16x16 --photons 200000000 -o {O}",
     };
     pm_test_folder();
     for (size_t i = 0; i < sizeof lines / sizeof lines[0]; ++i) {
