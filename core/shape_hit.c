@@ -75,9 +75,6 @@ static bool hit_triangle(const pm_vec3 vertex[3], const pm_ray *ray, double t_ma
     }
     pm_vec3 normal = pm_vec_cross(pm_vec_sub(b, a), pm_vec_sub(c, a));
     double step = pm_vec_dot(normal, a) / pm_vec_dot(normal, ray->direction);
-    if (!(fabs(step) <= size)) { // a ray almost in the plane that passes beside the triangle
-        return false;
-    }
     return accept(near + step, t_max, t);
 }
 
@@ -94,20 +91,14 @@ static bool hit_sphere(const pm_shape *shape, const pm_ray *ray, double t_max, d
 {
     pm_vec3 to_center = pm_vec_sub(shape->center, ray->origin);
     double near = pm_vec_dot(to_center, ray->direction);
+    // From the nearest point of the ray to the centre: as exact from afar as from close by.
     pm_vec3 aside = pm_vec_along(to_center, ray->direction, -near);
     double half2 = shape->radius * shape->radius - pm_vec_dot(aside, aside);
     if (half2 < 0.0) {
         return false;
     }
-    // The two roots have the product `power`; the larger one is a sum without cancellation.
-    double distance = pm_vec_length(to_center);
-    double power = (distance - shape->radius) * (distance + shape->radius);
     double half = sqrt(half2);
-    double large = near >= 0.0 ? near + half : near - half;
-    double other = power / large;
-    double first = fmin(large, other);
-    double second = fmax(large, other);
-    return accept(first, t_max, t) || accept(second, t_max, t);
+    return accept(near - half, t_max, t) || accept(near + half, t_max, t);
 }
 
 static bool hit_disk(const pm_shape *shape, const pm_ray *ray, double t_max, double *t)
@@ -153,17 +144,11 @@ static bool hit_cylinder(const pm_shape *shape, const pm_ray *ray, double t_max,
     if (!(half2 >= 0.0)) { // also NaN: the ray runs along the axis
         return false;
     }
-    double distance = pm_vec_length(to_axis);
-    double power = (distance - shape->radius) * (distance + shape->radius) / speed2;
     double half = sqrt(half2 / speed2);
-    double large = near >= 0.0 ? near + half : near - half;
-    double other = power / large;
-    double first = fmin(large, other);
-    double second = fmax(large, other);
-    if (between_ends(shape, ray, first) && accept(first, t_max, t)) {
+    if (between_ends(shape, ray, near - half) && accept(near - half, t_max, t)) {
         return true;
     }
-    return between_ends(shape, ray, second) && accept(second, t_max, t);
+    return between_ends(shape, ray, near + half) && accept(near + half, t_max, t);
 }
 
 bool pm_shape_hit(const pm_shape *shape, uint32_t primitive, const pm_ray *ray, double t_max,

@@ -4,6 +4,16 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+pm_frame pm_shapes_askew(void)
+{
+    return pm_frame_around(pm_vec_normalize(pm_vec(0.3, -0.7, 0.5)));
+}
+
+pm_frame pm_shapes_upright(void)
+{
+    return (pm_frame){{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
+}
+
 static pm_shape shape_of(pm_shape_type type)
 {
     return (pm_shape){.type = type,

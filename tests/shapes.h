@@ -9,6 +9,10 @@
 
 #include <stddef.h>
 
+/// Bases along the coordinate axes, and along none of them.
+pm_frame pm_shapes_upright(void);
+pm_frame pm_shapes_askew(void);
+
 pm_shape pm_shapes_rectangle(pm_vec3 corner, pm_vec3 edge0, pm_vec3 edge1);
 pm_shape pm_shapes_sphere(pm_vec3 center, double radius);
 pm_shape pm_shapes_disk(pm_vec3 center, pm_vec3 axis, double radius);

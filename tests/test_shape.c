@@ -50,7 +50,7 @@ static void offset_is_of_hit_and_primitive(void)
     pm_shape ball = pm_shapes_sphere(pm_vec(0.0, 0.0, 0.0), 4.0);
     pm_shape wall = pm_shapes_rectangle(pm_vec(-1.0, -8.0, 2.0), pm_vec(2.0, 0.0, 0.0),
                                         pm_vec(0.0, 16.0, 0.0));
-    pm_frame flat = pm_frame_around(pm_vec(0.0, 0.0, 1.0));
+    pm_frame flat = pm_shapes_upright();
     pm_shape cube = pm_shapes_cube(&flat, pm_vec(0.0, 0.0, 0.0), 0.5);
     cube.reach = 1e6; // other triangles of a mesh do not count
     pm_hit hit;
