@@ -139,7 +139,7 @@ static pm_status write_file(const char *path, const json_t *object)
 pm_status pm_report_end(const pm_options *options, json_t *object)
 {
     if (object == NULL) {
-        return PM_FAIL(PM_ENOMEM, "no memory for the report");
+        return PM_FAIL(PM_ENOMEM, "no memory for the report, or a number in it is not finite");
     }
     pm_status status = PM_OK;
     if (options->report != NULL) {

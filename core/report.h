@@ -1,6 +1,7 @@
 // What programs say as JSON, by jansson: the parts that several of them share. Every function
-// that makes a value gives the caller a reference, NULL without memory; jansson's packing
-// passes NULL on, so only pm_report_end() has to look.
+// that makes a value gives the caller a reference; it is NULL without memory, or when a number
+// is not finite, which JSON cannot say. jansson's packing passes NULL on, so only
+// pm_report_end() has to look.
 #ifndef PM_REPORT_H
 #define PM_REPORT_H
 
