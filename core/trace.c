@@ -23,10 +23,10 @@ static double probability(pm_spectrum power, pm_spectrum albedo, pm_roulette_rul
 pm_status pm_trace_roulette(pm_spectrum power, const pm_lobe *lobes, int count,
                             pm_roulette_rule rule, pm_rng *rng, pm_roulette *outcome)
 {
-    *outcome = (pm_roulette){.lobe = PM_NONE};
     if (count > PM_LOBES_MAX) {
         return PM_FAIL(PM_EINPUT, "at most %d lobes, got %d", PM_LOBES_MAX, count);
     }
+    *outcome = (pm_roulette){.lobe = PM_NONE};
     if (pm_spectrum_is_black(power)) {
         return PM_OK;
     }
