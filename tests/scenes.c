@@ -184,3 +184,26 @@ void pm_scenes_free(pm_scenes *s)
     pm_intersector_free(&s->world);
     pm_shapes_free(s->shapes, (size_t)s->scene.shape_count);
 }
+
+void pm_scenes_sheet(pm_scenes *s, int front, int back)
+{
+    pm_shape shape = pm_scenes_square(2.0, 0.0, false);
+    shape.exterior = 0;
+    shape.interior = 1;
+    pm_scenes_add(s, shape, front, back);
+    pm_scenes_ready(s);
+}
+
+pm_lobes pm_scenes_lobes(const pm_scenes *s, pm_vec3 wi)
+{
+    pm_hit hit = {.normal = pm_vec(0.0, 0.0, 1.0), .offset = PM_OFFSET};
+    pm_lobes lobes;
+    pm_material_lobes(&s->scene, &hit, wi, 0.0, &lobes);
+    return lobes;
+}
+
+pm_vec3 pm_scenes_slant(double cosine)
+{
+    double sine = sqrt((1.0 - cosine) * (1.0 + cosine));
+    return pm_vec(sine * 0.6, sine * 0.8, cosine);
+}

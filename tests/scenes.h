@@ -11,8 +11,7 @@
 #ifndef PM_SCENES_H
 #define PM_SCENES_H
 
-#include "intersect.h"
-#include "scene.h"
+#include "material.h"
 
 enum { PM_SCENES_SHAPES = 24, PM_SCENES_MATERIALS = 12, PM_SCENES_LIGHTS = 12 };
 
@@ -61,5 +60,14 @@ int pm_scenes_sun(pm_scenes *s, pm_vec3 direction, pm_spectrum irradiance);
 void pm_scenes_ready(pm_scenes *s);
 
 void pm_scenes_free(pm_scenes *s);
+
+/// Adds a square across z, normal up, medium 0 above and 1 below, and makes the scene ready.
+void pm_scenes_sheet(pm_scenes *s, int front, int back);
+
+/// The lobes of shape 0, which lies across z, for light from `wi`.
+pm_lobes pm_scenes_lobes(const pm_scenes *s, pm_vec3 wi);
+
+/// A unit direction at this cosine to +z; a negative one points below.
+pm_vec3 pm_scenes_slant(double cosine);
 
 #endif

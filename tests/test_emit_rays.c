@@ -327,9 +327,8 @@ static void sun_starts_before_everything(void)
     pm_scenes_free(&s);
 }
 
-/// Irradiance [W/m^2] that `rays` bring to a patch of the floor.
-static double patch_irradiance(const pm_scenes *s, const pm_ray *rays, pm_vec3 low,
-                               pm_vec3 high)
+/// How many of the rays meet a patch of the floor.
+static double rays_on(const pm_ray *rays, pm_vec3 low, pm_vec3 high)
 {
     double met = 0.0;
     for (size_t i = 0; i < COUNT; i++) {
@@ -337,8 +336,7 @@ static double patch_irradiance(const pm_scenes *s, const pm_ray *rays, pm_vec3 l
         pm_vec3 at = pm_vec_along(rays[i].origin, rays[i].direction, t);
         met += at.x >= low.x && at.x < high.x && at.y >= low.y && at.y < high.y;
     }
-    double area = (high.x - low.x) * (high.y - low.y);
-    return met / COUNT * s->lights[0].flux.c[0] / area;
+    return met;
 }
 
 static void check_patch(const pm_scenes *s, const pm_ray *rays, pm_vec3 low, pm_vec3 high,
@@ -347,7 +345,7 @@ static void check_patch(const pm_scenes *s, const pm_ray *rays, pm_vec3 low, pm_
     double flux = s->lights[0].flux.c[0];
     double area = (high.x - low.x) * (high.y - low.y);
     double share = irradiance * area / flux;
-    CHECK_NEAR(patch_irradiance(s, rays, low, high), irradiance,
+    CHECK_NEAR(rays_on(rays, low, high) / COUNT * flux / area, irradiance,
                flux / area * pm_chance_bound(share * (1.0 - share), COUNT));
 }
 
