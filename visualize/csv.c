@@ -7,6 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+// Light starts, and is followed, within so many scene radii of the centre.
+#define RADII 4.0
+
 /// Cuts `text` at its commas; returns the number of fields, PM_CSV_COLUMNS_MAX + 1 for too
 /// many.
 static int split(char *text, char **field)
@@ -46,6 +49,12 @@ static pm_status read_line(pm_csv *csv, bool *more)
     csv->text[--length] = '\0';
     if (length > 0 && csv->text[length - 1] == '\r') {
         csv->text[length - 1] = '\0';
+    }
+    for (const char *c = csv->text; *c != '\0'; c++) {
+        if (*c < ' ' || *c > '~') {
+            return pm_status_fail(PM_EINPUT, "%s:%ld: this is not plain text (byte 0x%02x)",
+                                  csv->path, csv->line, (unsigned)(unsigned char)*c);
+        }
     }
     *more = true;
     return PM_OK;
@@ -113,6 +122,25 @@ pm_status pm_csv_positive(const pm_csv *csv, int column, double *value)
                               csv->line, csv->name[column], got);
     }
     *value = got;
+    return PM_OK;
+}
+
+pm_status pm_csv_point(const pm_csv *csv, int column, const pm_scene *scene, pm_vec3 *point)
+{
+    pm_vec3 at;
+    PM_TRY(pm_csv_number(csv, column, &at.x));
+    PM_TRY(pm_csv_number(csv, column + 1, &at.y));
+    PM_TRY(pm_csv_number(csv, column + 2, &at.z));
+    at = pm_vec_sub(at, scene->center);
+    if (pm_vec_reach(at) > RADII * scene->radius) {
+        return pm_status_fail(
+            PM_EINPUT,
+            "%s:%ld: the point %s,%s,%s lies far outside of %s: it comes from "
+            "another scene",
+            csv->path, csv->line, csv->field[column], csv->field[column + 1],
+            csv->field[column + 2], scene->path);
+    }
+    *point = at;
     return PM_OK;
 }
 

@@ -3,6 +3,7 @@
 #ifndef PM_CSV_H
 #define PM_CSV_H
 
+#include "scene.h"
 #include "status.h"
 
 #include <stdbool.h>
@@ -43,6 +44,11 @@ pm_status pm_csv_number(const pm_csv *csv, int column, double *value);
 
 /// Field `column` as a finite number >= 0.
 pm_status pm_csv_positive(const pm_csv *csv, int column, double *value);
+
+/// Fields `column` to `column` + 2 as a point [m], from the scene file's coordinates to centred
+/// ones. A point further from the scene than light starts or is followed to is refused: the
+/// file was written for another scene.
+pm_status pm_csv_point(const pm_csv *csv, int column, const pm_scene *scene, pm_vec3 *point);
 
 /// Field `column` as a whole number in [0, most].
 pm_status pm_csv_count(const pm_csv *csv, int column, uint64_t most, uint64_t *value);

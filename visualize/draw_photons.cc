@@ -17,14 +17,8 @@
 
 namespace {
 
-/// Fewer photons get bigger dots, in pixels of a picture 900 high.
-double dot_size(uint32_t count)
-{
-    return count <= 2000 ? 5.0 : count <= 20000 ? 3.0 : count <= 300000 ? 2.0 : 1.0;
-}
-
 vtkSmartPointer<vtkUnsignedCharArray> colour_points(const pm_photon_cloud *cloud,
-                                                    double emphasis)
+                                                    double brightness)
 {
     auto colours = vtkSmartPointer<vtkUnsignedCharArray>::New();
     colours->SetNumberOfComponents(3);
@@ -35,7 +29,7 @@ vtkSmartPointer<vtkUnsignedCharArray> colour_points(const pm_photon_cloud *cloud
         for (int c = 0; c < 3; c++) {
             power[c] = static_cast<double>(cloud->power[i][c]) / full;
         }
-        pm_colour c = pm_colour_dim(pm_colour_linear(power[0], power[1], power[2]), emphasis);
+        pm_colour c = pm_colour_dim(pm_colour_linear(power[0], power[1], power[2]), brightness);
         const unsigned char rgb[3] = {c.r, c.g, c.b};
         colours->SetTypedTuple(i, rgb);
     }
@@ -66,32 +60,31 @@ pm_colour grey(double position)
     return pm_colour_linear(position, position, position);
 }
 
-pm_status add_scale(pm_figure *figure, const pm_photon_cloud *cloud)
-{
-    std::string heading = std::string(cloud->name) + " map:\npower of a photon [W]";
-    pm_scale scale = {heading.c_str(), 0.0, cloud->full_power, false, grey};
-    return cloud->full_power > 0.0 ? pm_figure_scale(figure, &scale) : PM_OK;
-}
-
 } // namespace
 
-pm_status pm_draw_photons(pm_figure *figure, const pm_photon_cloud *cloud, double emphasis)
+pm_status pm_draw_photons(pm_figure *figure, const pm_photon_cloud *cloud, double dot_size,
+                          double brightness)
 {
     return pm_figure_guard("photons", [&] {
         if (cloud->count == 0) {
             return PM_OK;
         }
         vtkSmartPointer<vtkPolyData> data = make_points(cloud);
-        data->GetPointData()->SetScalars(colour_points(cloud, emphasis));
+        data->GetPointData()->SetScalars(colour_points(cloud, brightness));
         vtkNew<vtkPolyDataMapper> mapper;
         mapper->SetInputData(data);
         mapper->SetColorModeToDirectScalars();
         vtkNew<vtkActor> actor;
         actor->SetMapper(mapper);
         actor->GetProperty()->LightingOff();
-        double size = emphasis < 1.0 ? 1.0 : dot_size(cloud->count);
-        actor->GetProperty()->SetPointSize(static_cast<float>(figure->pixels(size)));
+        actor->GetProperty()->SetPointSize(static_cast<float>(figure->pixels(dot_size)));
         figure->renderer->AddActor(actor);
-        return emphasis < 1.0 ? PM_OK : add_scale(figure, cloud);
+        return PM_OK;
     });
+}
+
+pm_status pm_draw_photon_scale(pm_figure *figure, const char *heading, double full_power)
+{
+    pm_scale scale = {heading, 0.0, full_power, false, grey};
+    return full_power > 0.0 ? pm_figure_scale(figure, &scale) : PM_OK;
 }

@@ -9,15 +9,15 @@
 
 #include <stdint.h>
 
-/// The photons of one map. Freed by pm_photon_cloud_free().
+/// Photons of one map. Freed by pm_photon_cloud_free().
 typedef struct {
     float (*position)[3];
     float (*power)[3]; // [W]
-    uint32_t count;
-    uint64_t emitted;   // photons sent to fill the map
-    double full_power;  // [W] in one channel; only one photon in a hundred has more
-    double total_power; // [W] of the map, mean of the channels
-    const char *name;   // "global", "caustic" or "volume"
+    uint32_t count;    // that are here
+    uint32_t stored;   // that the map has
+    uint64_t emitted;  // photons sent to fill the map
+    double full_power; // [W] in one channel; only one photon in a hundred has more
+    const char *name;  // "global", "caustic" or "volume"
 } pm_photon_cloud;
 
 /// One split plane of a kd-tree, clipped to its cell.

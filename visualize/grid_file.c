@@ -46,22 +46,20 @@ static pm_status check_order(const pm_csv *csv, uint64_t count, uint64_t *column
     return PM_OK;
 }
 
-static pm_status read_point(const pm_csv *csv, pm_vec3 center, pm_grid_point *point)
+static pm_status read_point(const pm_csv *csv, const pm_scene *scene, pm_grid_point *point)
 {
-    double value[RADIUS] = {0};
-    for (int column = X; column < RED; column++) {
-        PM_TRY(pm_csv_number(csv, column, &value[column]));
+    double unused = 0.0;
+    PM_TRY(pm_csv_point(csv, X, scene, &point->position));
+    for (int column = NX; column <= NZ; column++) {
+        PM_TRY(pm_csv_number(csv, column, &unused));
     }
-    for (int column = RED; column < RADIUS; column++) {
-        PM_TRY(pm_csv_positive(csv, column, &value[column]));
+    for (int c = 0; c < 3; c++) {
+        PM_TRY(pm_csv_positive(csv, RED + c, &point->irradiance.c[c]));
     }
-    PM_TRY(pm_csv_count(csv, FOUND, UINT64_MAX, &point->found));
-    point->position = pm_vec_sub(pm_vec(value[X], value[Y], value[Z]), center);
-    point->irradiance = pm_rgb(value[RED], value[GREEN], value[BLUE]);
-    return PM_OK;
+    return pm_csv_count(csv, FOUND, UINT64_MAX, &point->found);
 }
 
-static pm_status read_points(pm_csv *csv, pm_vec3 center, pm_grid *grid)
+static pm_status read_points(pm_csv *csv, const pm_scene *scene, pm_grid *grid)
 {
     uint64_t room = 0;
     uint64_t count = 0;
@@ -73,7 +71,7 @@ static pm_status read_points(pm_csv *csv, pm_vec3 center, pm_grid *grid)
         }
         PM_TRY(check_order(csv, count, &grid->columns));
         PM_TRY(grow(&grid->points, count, &room));
-        PM_TRY(read_point(csv, center, &grid->points[count]));
+        PM_TRY(read_point(csv, scene, &grid->points[count]));
     }
     if (grid->columns < 2 || count % grid->columns != 0) {
         return pm_status_fail(PM_EINPUT,
@@ -85,13 +83,13 @@ static pm_status read_points(pm_csv *csv, pm_vec3 center, pm_grid *grid)
     return PM_OK;
 }
 
-pm_status pm_grid_file_read(const char *path, pm_vec3 center, pm_grid *grid)
+pm_status pm_grid_file_read(const char *path, const pm_scene *scene, pm_grid *grid)
 {
     pm_csv csv;
     pm_grid got = {0};
     pm_status status = pm_csv_open(path, PM_GRID_HEADER, "radiance --grid --dump", &csv);
     if (status == PM_OK) {
-        status = read_points(&csv, center, &got);
+        status = read_points(&csv, scene, &got);
     }
     pm_csv_close(&csv);
     if (status != PM_OK) {

@@ -87,7 +87,7 @@ static pm_status check_order(const pm_csv *csv, const reader *to, uint64_t photo
     return PM_OK;
 }
 
-static pm_status read_row(const pm_csv *csv, pm_vec3 center, reader *to)
+static pm_status read_row(const pm_csv *csv, const pm_scene *scene, reader *to)
 {
     uint64_t photon = 0;
     uint64_t step = 0;
@@ -96,9 +96,7 @@ static pm_status read_row(const pm_csv *csv, pm_vec3 center, reader *to)
     PM_TRY(pm_csv_count(csv, PHOTON, UINT64_MAX, &photon));
     PM_TRY(pm_csv_count(csv, STEP, UINT32_MAX, &step));
     PM_TRY(read_event(csv, &vertex.event));
-    PM_TRY(pm_csv_number(csv, X, &vertex.position.x));
-    PM_TRY(pm_csv_number(csv, Y, &vertex.position.y));
-    PM_TRY(pm_csv_number(csv, Z, &vertex.position.z));
+    PM_TRY(pm_csv_point(csv, X, scene, &vertex.position));
     for (int c = 0; c < 3; c++) {
         PM_TRY(pm_csv_positive(csv, RED + c, &power[c]));
     }
@@ -106,14 +104,13 @@ static pm_status read_row(const pm_csv *csv, pm_vec3 center, reader *to)
     if (step == 0) {
         PM_TRY(add_path(to));
     }
-    vertex.position = pm_vec_sub(vertex.position, center);
     to->photon = photon;
     to->step = step;
     to->ended = strchr("AEC", vertex.event) != NULL;
     return add_vertex(to, vertex);
 }
 
-static pm_status read_rows(pm_csv *csv, pm_vec3 center, reader *to)
+static pm_status read_rows(pm_csv *csv, const pm_scene *scene, reader *to)
 {
     for (;;) {
         bool more = false;
@@ -121,7 +118,7 @@ static pm_status read_rows(pm_csv *csv, pm_vec3 center, reader *to)
         if (!more) {
             break;
         }
-        PM_TRY(read_row(csv, center, to));
+        PM_TRY(read_row(csv, scene, to));
     }
     if (to->set.path_count == 0) {
         return pm_status_fail(PM_EINPUT, "%s:2: the file holds no path", csv->path);
@@ -130,13 +127,13 @@ static pm_status read_rows(pm_csv *csv, pm_vec3 center, reader *to)
     return PM_OK;
 }
 
-pm_status pm_path_file_read(const char *path, pm_vec3 center, pm_path_set *paths)
+pm_status pm_path_file_read(const char *path, const pm_scene *scene, pm_path_set *paths)
 {
     pm_csv csv;
     reader to = {0};
     pm_status status = pm_csv_open(path, PM_PATH_HEADER, "tracing --dump", &csv);
     if (status == PM_OK) {
-        status = read_rows(&csv, center, &to);
+        status = read_rows(&csv, scene, &to);
     }
     pm_csv_close(&csv);
     if (status != PM_OK) {

@@ -4,15 +4,16 @@
 #define PM_PATH_FILE_H
 
 #include "figure_data.h"
+#include "scene.h"
 #include "status.h"
 
 #define PM_PATH_HEADER "photon,step,event,x,y,z,r,g,b"
 
 /// Reads a dump. Refuses, with file:line, a path that does not begin with L at step 0, a step
 /// left out, an unknown event, rows after a path's end, and numbers that are not finite.
-/// @param center  of the scene, taken off the file's coordinates
+/// @param scene  that the data came from
 /// @param paths   [out] untouched unless PM_OK; free with pm_path_file_free()
-pm_status pm_path_file_read(const char *path, pm_vec3 center, pm_path_set *paths);
+pm_status pm_path_file_read(const char *path, const pm_scene *scene, pm_path_set *paths);
 
 void pm_path_file_free(pm_path_set *paths);
 

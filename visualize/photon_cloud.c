@@ -33,27 +33,29 @@ static double find_full_power(const pm_photon_cloud *cloud)
 
 static void fill(const pm_photon_map *map, pm_photon_cloud *cloud)
 {
-    for (uint32_t i = 0; i < map->count; i++) {
-        pm_photon_view photon = pm_store_unpack(map, i);
+    for (uint32_t i = 0; i < cloud->count; i++) {
+        uint32_t from = (uint32_t)((uint64_t)i * map->count / cloud->count);
+        pm_photon_view photon = pm_store_unpack(map, from);
         for (int axis = 0; axis < 3; axis++) {
-            cloud->position[i][axis] = map->photons[i].position[axis];
+            cloud->position[i][axis] = map->photons[from].position[axis];
             cloud->power[i][axis] = (float)photon.power.c[axis];
         }
-        cloud->total_power += pm_spectrum_mean(photon.power);
     }
 }
 
-pm_status pm_photon_cloud_make(const pm_photon_map *map, pm_photon_cloud *cloud)
+pm_status pm_photon_cloud_make(const pm_photon_map *map, uint32_t most, pm_photon_cloud *cloud)
 {
     static const char *const names[] = {"global", "caustic", "volume"};
-    pm_photon_cloud made = {
-        .count = map->count, .emitted = map->emitted, .name = names[map->kind]};
-    size_t room = map->count > 0 ? map->count : 1;
+    pm_photon_cloud made = {.count = map->count < most ? map->count : most,
+                            .stored = map->count,
+                            .emitted = map->emitted,
+                            .name = names[map->kind]};
+    size_t room = made.count > 0 ? made.count : 1;
     made.position = malloc(room * sizeof *made.position);
     made.power = malloc(room * sizeof *made.power);
     if (made.position == NULL || made.power == NULL) {
         pm_photon_cloud_free(&made);
-        return PM_FAIL(PM_ENOMEM, "no memory to draw %u photons", map->count);
+        return PM_FAIL(PM_ENOMEM, "no memory to draw %u photons", made.count);
     }
     fill(map, &made);
     made.full_power = find_full_power(&made);

@@ -6,9 +6,9 @@
 #include "photon.h"
 #include "status.h"
 
-/// Unpacks every photon of `map`.
+/// Unpacks photons of `map`, at even steps when there are more than `most`.
 /// @param cloud  [out] untouched unless PM_OK; free with pm_photon_cloud_free()
-pm_status pm_photon_cloud_make(const pm_photon_map *map, pm_photon_cloud *cloud);
+pm_status pm_photon_cloud_make(const pm_photon_map *map, uint32_t most, pm_photon_cloud *cloud);
 
 void pm_photon_cloud_free(pm_photon_cloud *cloud);
 

@@ -83,8 +83,8 @@ pm_status pm_tree_split_make(const pm_photon_map *map, const char *where, int de
     if (!map->balanced) {
         return pm_status_fail(
             PM_EINPUT,
-            "%s: this map is not balanced, so it holds no tree to draw; balance it "
-            "before it is written",
+            "%s: this map is not balanced, so it holds no tree to draw; write "
+            "it with balancing -o",
             where);
     }
     uint32_t most = (1u << depths) - 1;

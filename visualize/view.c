@@ -8,6 +8,7 @@
 #include "draw.h"
 #include "figure.h"
 #include "grid_file.h"
+#include "interrupt.h"
 #include "path_file.h"
 #include "photon_cloud.h"
 #include "photon_file.h"
@@ -19,13 +20,16 @@
 #include "viewpoint.h"
 
 #include <jansson.h>
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
 #define NOTE_MAX 512
 #define FILES_MAX 4
-#define BACKDROP 0.6 // brightness of photons behind a tree
+// Photons behind a tree: so bright, and so many at most.
+#define BACKDROP 0.6
+#define BACKDROP_MOST 20000
 
 /// One picture on its way: what it is made from and of.
 typedef struct {
@@ -95,32 +99,60 @@ static pm_status read_map(const picture *p, const char *path, pm_photon_map *map
     return PM_OK;
 }
 
-static pm_status draw_map(picture *p, const pm_photon_map *map, double emphasis)
+/// Unpacks a map as the picture's next cloud.
+static pm_status add_cloud(picture *p, const char *path)
 {
-    pm_photon_cloud *cloud = &p->clouds[p->cloud_count];
-    PM_TRY(pm_photon_cloud_make(map, cloud));
-    p->cloud_count++;
-    return pm_draw_photons(p->figure, cloud, emphasis);
+    pm_photon_map map = {0};
+    PM_TRY(read_map(p, path, &map));
+    pm_status status = pm_photon_cloud_make(&map, PM_MAP_MAX, &p->clouds[p->cloud_count]);
+    pm_photon_map_free(&map);
+    if (status == PM_OK) {
+        p->drawn += p->clouds[p->cloud_count++].count;
+    }
+    return status;
+}
+
+/// So large that all dots together cover about the same area, whatever their number.
+static double dot_size(uint64_t count)
+{
+    double size = 2.0 * sqrt(1e5 / (double)(count > 0 ? count : 1));
+    return fmin(fmax(size, 1.0), 5.0);
+}
+
+/// One scale for all maps where their photons are equally strong, else one each.
+static pm_status add_photon_scales(const picture *p)
+{
+    double first = p->clouds[0].full_power;
+    bool same = true;
+    for (int i = 1; i < p->cloud_count; i++) {
+        same = same && fabs(p->clouds[i].full_power - first) <= 0.01 * first;
+    }
+    for (int i = 0; i < (same ? 1 : p->cloud_count); i++) {
+        char heading[64];
+        snprintf(heading, sizeof heading, "%s%spower of a photon [W]",
+                 same ? "" : p->clouds[i].name, same ? "" : " map:\n");
+        PM_TRY(pm_draw_photon_scale(p->figure, heading, p->clouds[i].full_power));
+    }
+    return PM_OK;
 }
 
 static pm_status draw_photons(picture *p)
 {
     add_note(p,
-             "every dot is one photon, in the colour of its power; where they lie dense, there "
-             "is much light\n");
+             "every dot is a photon, in the colour of the light it brings (not of the wall it "
+             "hits)\n");
     for (int i = 0; i < p->file_count; i++) {
-        pm_photon_map map = {0};
+        PM_TRY(add_cloud(p, p->files[i]));
+    }
+    for (int i = 0; i < p->cloud_count; i++) {
         char stored[32];
         char emitted[32];
-        PM_TRY(read_map(p, p->files[i], &map));
-        pm_status status = draw_map(p, &map, 1.0);
-        add_note(p, "%s%s map: %s stored of %s emitted", i > 0 ? "   |   " : "",
-                 p->clouds[i].name, grouped(map.count, stored), grouped(map.emitted, emitted));
-        p->drawn += map.count;
-        pm_photon_map_free(&map);
-        PM_TRY(status);
+        const pm_photon_cloud *cloud = &p->clouds[i];
+        add_note(p, "%s%s map: %s stored of %s emitted", i > 0 ? "   |   " : "", cloud->name,
+                 grouped(cloud->count, stored), grouped(cloud->emitted, emitted));
+        PM_TRY(pm_draw_photons(p->figure, cloud, dot_size(p->drawn), 1.0));
     }
-    return PM_OK;
+    return add_photon_scales(p);
 }
 
 static pm_status draw_paths(picture *p)
@@ -128,7 +160,7 @@ static pm_status draw_paths(picture *p)
     pm_path_set paths;
     char drawn[32];
     char all[32];
-    PM_TRY(pm_path_file_read(p->files[0], p->scene.center, &paths));
+    PM_TRY(pm_path_file_read(p->files[0], &p->scene, &paths));
     pm_status status = pm_draw_paths(p->figure, &paths, p->view->paths, &p->drawn);
     add_note(p,
              "from the light until a surface absorbs them or they leave the scene\n"
@@ -150,7 +182,12 @@ static pm_status draw_splits(picture *p, const pm_photon_map *map)
         "every plane goes through the median photon of its cell and cuts its longest side\n"
         "%s photons, tree %d deep; the first %d depths: %s planes",
         grouped(map->count, count), tree.height, tree.depths, grouped(tree.count, shown));
-    pm_status status = draw_map(p, map, BACKDROP);
+    pm_status status = pm_photon_cloud_make(map, BACKDROP_MOST, &p->clouds[0]);
+    if (status == PM_OK) {
+        p->cloud_count = 1;
+        add_note(p, ", %s photons as dots", grouped(p->clouds[0].count, shown));
+        status = pm_draw_photons(p->figure, &p->clouds[0], 1.0, BACKDROP);
+    }
     if (status == PM_OK) {
         status = pm_draw_tree(p->figure, &tree);
     }
@@ -170,13 +207,20 @@ static pm_status draw_tree(picture *p)
 static pm_status draw_irradiance(picture *p)
 {
     pm_grid grid;
-    PM_TRY(pm_grid_file_read(p->files[0], p->scene.center, &grid));
+    PM_TRY(pm_grid_file_read(p->files[0], &p->scene, &grid));
     p->drawn = grid.columns * grid.rows;
+    uint64_t fewest = UINT64_MAX;
+    uint64_t most = 0;
+    for (uint64_t i = 0; i < p->drawn; i++) {
+        fewest = grid.points[i].found < fewest ? grid.points[i].found : fewest;
+        most = grid.points[i].found > most ? grid.points[i].found : most;
+    }
     add_note(
         p,
         "light arriving on a square metre, estimated from the photons nearest to each point\n"
-        "%llu x %llu points",
-        (unsigned long long)grid.columns, (unsigned long long)grid.rows);
+        "%llu x %llu points, %llu to %llu photons each",
+        (unsigned long long)grid.columns, (unsigned long long)grid.rows,
+        (unsigned long long)fewest, (unsigned long long)most);
     pm_status status = pm_draw_irradiance(p->figure, &grid);
     pm_grid_file_free(&grid);
     return status;
@@ -234,6 +278,7 @@ static pm_status make(picture *p, const kind *k)
     PM_TRY(k->draw(p));
     const char *title = p->options->title != NULL ? p->options->title : k->title;
     PM_TRY(pm_figure_title(p->figure, title, p->note));
+    PM_TRY(pm_interrupt_check());
     PM_TRY(pm_figure_write(p->figure, p->options->output));
     return p->options->json ? print_json(p, &viewpoint) : PM_OK;
 }
@@ -288,7 +333,7 @@ int main(int argc, char **argv)
             "--dump),\n"
             "tree MAP.ply, irradiance GRID.csv (radiance --grid --dump). Also:\n"
             "  --scene SCENE.xml  the scene that the data came from; needed\n"
-            "  --depth D          tree: levels drawn, 1..16, default 6\n"
+            "  --depth D          tree: levels drawn, 1..16, default 5\n"
             "  --paths N          paths: drawn at most, default 150\n"
             "The picture is 1200x900 unless --size says otherwise. --json prints the camera,\n"
             "so that a program can find the pixel of any point.",

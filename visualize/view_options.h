@@ -7,7 +7,7 @@
 
 #include <stdint.h>
 
-#define PM_VIEW_DEPTH_DEFAULT 6
+#define PM_VIEW_DEPTH_DEFAULT 5
 #define PM_VIEW_PATHS_DEFAULT 150
 
 typedef struct {
