@@ -11,7 +11,8 @@
 
 #include <stddef.h>
 
-#define UNPLACED 3u // in the axis bits: not yet in heap order
+#define UNPLACED PM_PHOTON_AXIS // in the axis bits: not yet in heap order
+#define TREE_HEIGHT 31          // levels of a tree of PM_MAP_MAX photons
 
 typedef struct {
     float low[3], high[3];
@@ -43,36 +44,36 @@ static int longest_side(const box *around)
     return side[0] >= side[yz] ? 0 : yz;
 }
 
-static pm_status bounds(const pm_photon_map *map, box *around)
+static void stretch(float x, float *low, float *high)
 {
-    for (int axis = 0; axis < 3; axis++) {
-        float low = HUGE_VALF;
-        float high = -HUGE_VALF;
-        for (uint32_t i = 0; i < map->count; i++) {
-            float x = map->photons[i].position[axis];
-            if (!isfinite(x)) {
-                return PM_FAIL(PM_EINPUT, "photon %u lies at %g on axis %d: not finite", i,
-                               (double)x, axis);
-            }
-            low = x < low ? x : low;
-            high = x > high ? x : high;
-        }
-        around->low[axis] = low;
-        around->high[axis] = high;
-    }
-    return PM_OK;
+    *low = x < *low ? x : *low;
+    *high = x > *high ? x : *high;
 }
 
-static void arrange(const pm_photon_run *r, uint32_t first, uint32_t count, box around)
+/// The tight box of `count` >= 1 photons. Tight, because one cut out of the parent's makes
+/// searches look at 40 % more photons where they lie on surfaces.
+static box box_around(const pm_photon *photons, uint32_t count)
+{
+    float low_x = photons->position[0], high_x = low_x;
+    float low_y = photons->position[1], high_y = low_y;
+    float low_z = photons->position[2], high_z = low_z;
+    for (const pm_photon *photon = photons + 1; photon < photons + count; photon++) {
+        stretch(photon->position[0], &low_x, &high_x);
+        stretch(photon->position[1], &low_y, &high_y);
+        stretch(photon->position[2], &low_z, &high_z);
+    }
+    return (box){{low_x, low_y, low_z}, {high_x, high_y, high_z}};
+}
+
+/// Puts photons first .. first + count - 1 in in-order.
+static void arrange(const pm_photon_run *r, uint32_t first, uint32_t count)
 {
     while (count > 1) {
-        int axis = longest_side(&around);
+        box around = box_around(r->photons + first, count);
         uint32_t left = pm_balance_left(count);
         uint32_t median = first + left;
-        pm_select_place(r, first, first + count - 1, median, axis);
-        box lower = around;
-        lower.high[axis] = around.low[axis] = r->photons[median].position[axis];
-        arrange(r, first, left, lower);
+        pm_select_place(r, first, first + count - 1, median, longest_side(&around));
+        arrange(r, first, left);
         first = median + 1;
         count -= left + 1;
     }
@@ -90,68 +91,85 @@ static uint32_t in_order_place(uint32_t node, uint32_t count, int last_depth)
     return (uint32_t)(place - (before > last ? before - last : 0));
 }
 
+/// Moves one cycle of the permutation, starting at `start`: each place gets the photon that
+/// belongs there.
+static void place_cycle(const pm_photon_run *r, uint32_t start, uint32_t count, int last_depth)
+{
+    pm_photon photon = r->photons[start];
+    pm_photon_exact exact = {0};
+    if (r->exact != NULL) {
+        exact = r->exact[start];
+    }
+    uint32_t to = start;
+    for (;;) {
+        uint32_t from = in_order_place(to + 1, count, last_depth);
+        bool closes = from == start;
+        r->photons[to] = closes ? photon : r->photons[from];
+        r->photons[to].flags &= (uint16_t)~UNPLACED;
+        if (r->exact != NULL) {
+            r->exact[to] = closes ? exact : r->exact[from];
+        }
+        if (closes) {
+            return;
+        }
+        to = from;
+    }
+}
+
 static void to_heap_order(const pm_photon_run *r, uint32_t count)
 {
     int last_depth = 31 - __builtin_clz(count);
     for (uint32_t i = 0; i < count; i++) {
         r->photons[i].flags |= UNPLACED;
     }
-    for (uint32_t start = 0; start < count; start++) {
-        if ((r->photons[start].flags & PM_PHOTON_AXIS) != UNPLACED) {
-            continue;
-        }
-        pm_photon photon = r->photons[start];
-        pm_photon_exact exact = {0};
-        if (r->exact != NULL) {
-            exact = r->exact[start];
-        }
-        uint32_t to = start;
-        for (;;) {
-            uint32_t from = in_order_place(to + 1, count, last_depth);
-            if (from == start) {
-                break;
-            }
-            r->photons[to] = r->photons[from];
-            r->photons[to].flags &= (uint16_t)~PM_PHOTON_AXIS;
-            if (r->exact != NULL) {
-                r->exact[to] = r->exact[from];
-            }
-            to = from;
-        }
-        r->photons[to] = photon;
-        r->photons[to].flags &= (uint16_t)~PM_PHOTON_AXIS;
-        if (r->exact != NULL) {
-            r->exact[to] = exact;
+    for (uint32_t i = 0; i < count; i++) {
+        if ((r->photons[i].flags & UNPLACED) == UNPLACED) {
+            place_cycle(r, i, count, last_depth);
         }
     }
 }
 
-static void set_axes(const pm_photon_run *r, uint64_t node, uint32_t count, box around)
+/// Writes down the axes that arrange() took, bottom up, from the same boxes. Returns the box of
+/// the subtree.
+static box set_axes(const pm_photon_run *r, uint64_t node, uint32_t count)
 {
-    while (node <= count) {
-        int axis = longest_side(&around);
-        pm_photon *photon = &r->photons[node - 1];
-        photon->flags |= (uint16_t)axis;
-        box lower = around;
-        lower.high[axis] = around.low[axis] = photon->position[axis];
-        set_axes(r, 2 * node, count, lower);
-        node = 2 * node + 1;
+    pm_photon *photon = &r->photons[node - 1];
+    box around = box_around(photon, 1);
+    for (uint64_t child = 2 * node; child <= 2 * node + 1 && child <= count; child++) {
+        box part = set_axes(r, child, count);
+        for (int axis = 0; axis < 3; axis++) {
+            stretch(part.low[axis], &around.low[axis], &around.high[axis]);
+            stretch(part.high[axis], &around.low[axis], &around.high[axis]);
+        }
     }
+    photon->flags |= (uint16_t)longest_side(&around);
+    return around;
 }
 
-pm_status pm_balance_build(pm_photon_map *map)
+static pm_status check_photons(const pm_photon_map *map)
 {
     if (map->count > PM_MAP_MAX) {
         return PM_FAIL(PM_ELIMIT, "a tree holds at most %u photons, got %u", PM_MAP_MAX,
                        map->count);
     }
-    box around;
-    PM_TRY(bounds(map, &around));
+    for (uint32_t i = 0; i < map->count; i++) {
+        const float *at = map->photons[i].position;
+        if (!isfinite(at[0]) || !isfinite(at[1]) || !isfinite(at[2])) {
+            return PM_FAIL(PM_EINPUT, "photon %u lies at %g %g %g, which is not finite", i,
+                           (double)at[0], (double)at[1], (double)at[2]);
+        }
+    }
+    return PM_OK;
+}
+
+pm_status pm_balance_build(pm_photon_map *map)
+{
+    PM_TRY(check_photons(map));
     if (map->count > 0 && !map->balanced) {
         pm_photon_run all = {map->photons, map->exact};
-        arrange(&all, 0, map->count, around);
+        arrange(&all, 0, map->count);
         to_heap_order(&all, map->count);
-        set_axes(&all, 1, map->count, around);
+        (void)set_axes(&all, 1, map->count);
     }
     map->balanced = true;
     return PM_OK;
@@ -242,40 +260,42 @@ typedef struct {
     double plane2;
 } pending;
 
+/// Goes down from `node` to the nearest leaf, putting off the far sides. Returns the photons
+/// looked at.
+static uint64_t descend(const pm_photon_map *map, const pm_search *search, uint64_t node,
+                        candidates *held, pending *later, int *waiting)
+{
+    uint64_t looked_at = 0;
+    while (node <= map->count) {
+        const pm_photon *photon = &map->photons[node - 1];
+        __builtin_prefetch(&map->photons[2 * node - 1]);
+        looked_at++;
+        consider(search, photon, (uint32_t)(node - 1), held);
+        int axis = photon->flags & PM_PHOTON_AXIS;
+        double beyond = pm_vec_axis(search->at, axis) - (double)photon->position[axis];
+        uint64_t near = 2 * node + (beyond > 0.0 ? 1 : 0);
+        uint64_t far = near ^ 1;
+        later[*waiting] = (pending){far, beyond * beyond};
+        *waiting += far <= map->count ? 1 : 0;
+        node = near;
+    }
+    return looked_at;
+}
+
 pm_status pm_balance_nearest(const pm_photon_map *map, const pm_search *search,
                              pm_neighbour *nearest, uint32_t *found, uint64_t *visited)
 {
     PM_TRY(check_search(map, search));
     // Not below the reach but at most at it: one step further, for a strict comparison.
     candidates held = {nearest, search->k, 0, nextafter(search->radius2, HUGE_VAL)};
-    pending later[32]; // a tree of 2^31 - 1 photons is 31 high
-    int waiting = 0;
-    double widen[3];
-    for (int a = 0; a < 3; a++) {
-        widen[a] = search->widen[a] > 1.0 ? search->widen[a] : 1.0;
-    }
+    pending later[TREE_HEIGHT + 1] = {{1, 0.0}}; // first the root; then one a level at most
+    int waiting = 1;
     uint64_t looked_at = 0;
-    uint64_t node = 1;
-    for (;;) {
-        while (node <= map->count) {
-            const pm_photon *photon = &map->photons[node - 1];
-            looked_at++;
-            __builtin_prefetch(&map->photons[2 * node - 1]);
-            consider(search, photon, (uint32_t)(node - 1), &held);
-            int axis = photon->flags & PM_PHOTON_AXIS;
-            double beyond = pm_vec_axis(search->at, axis) - (double)photon->position[axis];
-            uint64_t near = 2 * node + (beyond > 0.0 ? 1 : 0);
-            later[waiting] = (pending){near ^ 1, beyond * beyond * widen[axis]};
-            waiting += (near ^ 1) <= map->count ? 1 : 0;
-            node = near;
+    while (waiting > 0) {
+        pending next = later[--waiting];
+        if (next.plane2 < held.limit) {
+            looked_at += descend(map, search, next.node, &held, later, &waiting);
         }
-        do {
-            waiting--;
-        } while (waiting >= 0 && !(later[waiting].plane2 < held.limit));
-        if (waiting < 0) {
-            break;
-        }
-        node = later[waiting].node;
     }
     *found = held.found;
     if (visited != NULL) {

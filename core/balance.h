@@ -10,7 +10,8 @@
 #include "status.h"
 
 /// Judges a photon for a search: false leaves it out, true gives its squared distance, which
-/// must be at least its squared Euclidean distance from the search's centre.
+/// must be at least its squared Euclidean distance from the search's centre. Asked only about
+/// photons whose Euclidean distance is still of interest.
 typedef bool (*pm_accept_fn)(const void *context, const pm_photon *photon, double *distance2);
 
 typedef struct {
@@ -26,19 +27,25 @@ typedef struct {
 /// How many of `count` >= 1 photons go to the left subtree of a left-balanced tree.
 uint32_t pm_balance_left(uint32_t count);
 
-/// Balances `map` in place: median split on the longest side of each node's box. Takes
-/// O(n log n) for any input, sorted, equal or coplanar, and O(log n) extra memory. The same map
-/// gives the same bytes.
+/// Balances `map` in place: median split on the longest side of each node's tight box, x before
+/// y before z where sides are equal. Takes O(n log n) for any input, sorted, equal or coplanar,
+/// and O(log n) extra memory. The same map gives the same bytes; a balanced one is left as it
+/// is.
+///
+/// @return PM_EINPUT when a position is not finite
 pm_status pm_balance_build(pm_photon_map *map);
 
-/// The `search->k` nearest accepted photons at distances below the reach, or all there are.
+/// The `search->k` nearest accepted photons whose distance is at most the reach, or all there
+/// are. Exact for any k and any map; which of several at the k-th distance is free, but the
+/// same on every run.
 ///
 /// @param nearest  [out] room for k; a max-heap by distance when `found` is k: nearest[0] is
-/// the
-///                 farthest
+///                 the farthest
 /// @param found    [out]
 /// @param visited  [in, out] incremented by the tree nodes looked at; may be NULL
-/// @return PM_EINPUT when the map is not balanced, k is 0 or radius2 not positive
+/// @return PM_EINPUT when the map is not balanced (an empty one need not be), k is 0, radius2
+/// is
+///         not positive or `at` not finite
 pm_status pm_balance_nearest(const pm_photon_map *map, const pm_search *search,
                              pm_neighbour *nearest, uint32_t *found, uint64_t *visited);
 
