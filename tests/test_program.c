@@ -89,6 +89,7 @@ static void the_end_prints_the_message_and_tidies(void)
     CHECK(pm_program_end(pm_status_fail(PM_EINPUT, "a.xml:3: wrong")) == 2);
     check_file(stderr, "err", "a.xml:3: wrong\n");
     CHECK(access(temporary, F_OK) != 0);
+    pm_file_abandon(&file);
     CHECK(pm_program_end(PM_ESTOPPED) == 130);
     CHECK(pm_program_end(PM_OK) == 0);
 }
