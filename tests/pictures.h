@@ -10,6 +10,9 @@
 /// `tangent` is that of half the field of view.
 void pm_pictures_look(pm_scenes *s, pm_vec3 from, pm_vec3 to, double tangent, int size);
 
+/// The first surface from a point along a unit direction, as the first vertex of an eye path.
+pm_vertex pm_pictures_meet(const pm_scenes *s, pm_vec3 from, pm_vec3 direction);
+
 /// Settings for small pictures: 20,000 photons a map, 4 samples a pixel, gather off.
 pm_render_settings pm_pictures_settings(void);
 
