@@ -1,0 +1,55 @@
+// Contracts are in the header.
+#include "scene_text.h"
+
+#include "intersect_plain.h"
+#include "test.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+const char *pm_scene_text_write(const char *name, const char *text)
+{
+    static char path[4096];
+    snprintf(path, sizeof path, "%s/%s", pm_test_folder(), name);
+    FILE *stream = fopen(path, "w");
+    CHECK(stream != NULL);
+    fputs(text, stream);
+    CHECK(fclose(stream) == 0);
+    return path;
+}
+
+pm_status pm_scene_text_read(pm_scene *scene, const char *format, ...)
+{
+    char body[8192];
+    char text[8400];
+    va_list arguments;
+    va_start(arguments, format);
+    int length = vsnprintf(body, sizeof body, format, arguments);
+    va_end(arguments);
+    CHECK(length > 0 && length < (int)sizeof body);
+    snprintf(text, sizeof text,
+             "<scene version=\"3.0.0\">\n%s\n<emitter type=\"point\"/></scene>", body);
+    return pm_scene_read(pm_scene_text_write("scene.xml", text), NULL, 0, false, scene);
+}
+
+int pm_scene_text_shape(const pm_scene *scene, const char *id)
+{
+    for (int i = 0; i < scene->shape_count; i++) {
+        if (strcmp(scene->shapes[i].id, id) == 0) {
+            return i;
+        }
+    }
+    pm_test_fail(__FILE__, __LINE__, "no shape has the id %s", id);
+}
+
+pm_vec3 pm_scene_text_normal(const pm_scene *scene, pm_vec3 origin, pm_vec3 direction)
+{
+    pm_intersector world;
+    pm_hit hit;
+    CHECK_OK(pm_intersect_plain(scene, &world));
+    pm_ray ray = {pm_vec_sub(origin, scene->center), direction, INFINITY, 0.0, PM_NONE};
+    CHECK_THAT(pm_closest(&world, &ray, &hit), "the ray meets nothing");
+    pm_intersector_free(&world);
+    return hit.normal;
+}
