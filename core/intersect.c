@@ -64,8 +64,7 @@ static float to_embree(const world *at, double length)
     return (float)(length * at->scale);
 }
 
-// --- queries
-// -------------------------------------------------------------------------------------
+// --- queries -----------------------------------------------------------------------------
 
 /// The float ray for `ask->ray`. False when the ray cannot meet the scene.
 static bool start_ray(query *ask, struct RTCRay *ray)
@@ -73,12 +72,14 @@ static bool start_ray(query *ask, struct RTCRay *ray)
     const world *at = ask->world;
     const pm_ray *exact = ask->ray;
     double nearest = -pm_vec_dot(exact->origin, exact->direction); // to the middle of the scene
-    ask->skipped = fmax(0.0, nearest - 0.5 * RAY_ROOM * at->extent);
+    double outside = nearest - 0.5 * RAY_ROOM * at->extent;
+    ask->skipped = outside > 0.0 ? outside : 0.0;
     pm_vec3 origin = pm_vec_along(exact->origin, exact->direction, ask->skipped);
     if (!(pm_vec_reach(origin) <= RAY_ROOM * at->extent) || exact->t_max <= ask->skipped) {
         return false;
     }
-    double end = fmin((exact->t_max - ask->skipped) * at->scale, 4.0 * RAY_ROOM);
+    double rest = (exact->t_max - ask->skipped) * at->scale;
+    double end = rest < 4.0 * RAY_ROOM ? rest : 4.0 * RAY_ROOM;
     *ray = (struct RTCRay){
         .org_x = to_embree(at, origin.x),
         .org_y = to_embree(at, origin.y),
@@ -154,8 +155,7 @@ static bool blocked(const void *state, const pm_ray *ray)
     return ask.shape != RTC_INVALID_GEOMETRY_ID;
 }
 
-// --- Embree's callbacks
-// --------------------------------------------------------------------------
+// --- Embree's callbacks ------------------------------------------------------------------
 
 static void bound(const struct RTCBoundsFunctionArguments *arguments)
 {
@@ -214,12 +214,12 @@ static void meet_blocked(const struct RTCOccludedFunctionNArguments *arguments)
     ((struct RTCRay *)arguments->ray)->tfar = -INFINITY; // Embree's sign for "blocked: stop"
 }
 
-// --- building
-// ------------------------------------------------------------------------------------
+// --- building ----------------------------------------------------------------------------
 
 static pm_status embree_status(RTCDevice device)
 {
-    switch (rtcGetDeviceError(device)) {
+    enum RTCError code = rtcGetDeviceError(device);
+    switch (code) {
     case RTC_ERROR_NONE:
         return PM_OK;
     case RTC_ERROR_OUT_OF_MEMORY:
@@ -228,7 +228,8 @@ static pm_status embree_status(RTCDevice device)
     case RTC_ERROR_UNSUPPORTED_CPU:
         return PM_FAIL(PM_ELIMIT, "Embree does not run on this processor, it needs SSE2");
     default:
-        return PM_FAIL(PM_ELIMIT, "Embree failed; run with a device that it supports");
+        return PM_FAIL(PM_ELIMIT, "Embree could not build the scene's tree (error %d)",
+                       (int)code);
     }
 }
 

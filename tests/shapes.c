@@ -73,8 +73,7 @@ pm_shape pm_shapes_cylinder(pm_vec3 center, pm_vec3 axis, double length, double 
     return shape;
 }
 
-// --- meshes
-// --------------------------------------------------------------------------------------
+// --- meshes ------------------------------------------------------------------------------
 
 static void *room_for(size_t count, size_t size)
 {
@@ -211,8 +210,7 @@ void pm_shapes_free(pm_shape *shapes, size_t count)
     }
 }
 
-// --- scenes
-// --------------------------------------------------------------------------------------
+// --- scenes ------------------------------------------------------------------------------
 
 void pm_shapes_room(const pm_frame *turned, pm_vec3 center, double half, pm_shape walls[6])
 {

@@ -140,8 +140,7 @@ static void scaling_keeps_bits(void)
     pm_shapes_free(shapes, MIXED);
 }
 
-// --- shadow rays
-// ---------------------------------------------------------------------------------
+// --- shadow rays -------------------------------------------------------------------------
 
 /// The shadow ray between two points; false when they do not face each other.
 static bool shadow_ray(const pm_hit *from, const pm_hit *to, pm_ray *ray)
@@ -263,8 +262,7 @@ static void null_surfaces_let_pass(void)
     }
 }
 
-// --- scenes with little in them, and what must not happen
-// ----------------------------------------
+// --- scenes with little in them, and what must not happen --------------------------------
 
 static void check_nothing_there(pm_shape *shapes, size_t count)
 {

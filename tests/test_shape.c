@@ -13,8 +13,7 @@ static pm_ray ray_from(pm_vec3 origin, pm_vec3 direction)
     return (pm_ray){origin, direction, HUGE_VAL, 0.0, PM_NONE};
 }
 
-// --- what a hit holds
-// ----------------------------------------------------------------------------
+// --- what a hit holds --------------------------------------------------------------------
 
 static void hits_lie_on_their_shape(void)
 {
@@ -133,8 +132,7 @@ static void inner_without_room_is_the_middle(void)
     pm_shapes_free(small, 3);
 }
 
-// --- points and boxes
-// ----------------------------------------------------------------------------
+// --- points and boxes --------------------------------------------------------------------
 
 enum { CELLS = 8, POINTS = 200000 };
 
