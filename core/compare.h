@@ -69,8 +69,9 @@ bool pm_compare_has(const pm_compare_pair *pair, const char *layer);
 pm_status pm_compare_measure(const pm_compare_pair *pair, const char *layer,
                              pm_compare_part *part);
 
-/// Fault or noise, with a sentence for the user.
-/// @param layers    `count` of them, to name the one that leans most
+/// Fault or noise, with a sentence for the user: a fault when the picture or one of its layers
+/// leans (coherence.h), or a layer is black in one picture only.
+/// @param layers    `count` of them
 /// @param sentence  [out] of at most `room` bytes
 pm_compare_verdict pm_compare_judge(const pm_compare_part *whole, const pm_compare_part *layers,
                                     int count, char *sentence, size_t room);

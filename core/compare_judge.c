@@ -7,70 +7,107 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-// Of layers whose difference leans one way, the one that leans most; NULL when none does.
-static const pm_compare_part *find_leaning(const pm_compare_part *layers, int count)
+// The part whose difference leans most in absolute terms, of those that lean at all; NULL when
+// none does. A layer can lean clearly while the noise of others hides it in the whole picture.
+static const pm_compare_part *find_leaning(const pm_compare_part *whole,
+                                           const pm_compare_part *layers, int count)
 {
-    const pm_compare_part *most = NULL;
+    const pm_compare_part *most = whole->coherence.z > PM_COMPARE_SIGMA ? whole : NULL;
     for (int i = 0; i < count; i++) {
-        bool leans = layers[i].coherence.z > PM_COMPARE_SIGMA;
-        if (leans &&
-            (most == NULL || layers[i].coherence.coherent > most->coherence.coherent)) {
+        const pm_coherence *found = &layers[i].coherence;
+        if (found->z > PM_COMPARE_SIGMA &&
+            (most == NULL || found->coherent >= most->coherence.coherent)) {
             most = &layers[i];
         }
     }
     return most;
 }
 
-static void say_fault(const pm_compare_part *whole, const pm_compare_part *layers, int count,
-                      char *sentence, size_t room)
+// A layer that is black in one picture only: switched off, not noisy.
+static const pm_compare_part *find_missing(const pm_compare_part *layers, int count)
 {
-    const pm_compare_part *leaning = find_leaning(layers, count);
+    for (int i = 0; i < count; i++) {
+        const double *ratio = layers[i].mean_ratio;
+        bool none_in_a = ratio[0] == 0.0 && ratio[1] == 0.0 && ratio[2] == 0.0;
+        if (none_in_a || (layers[i].mean_b == 0.0 && layers[i].max > 0.0)) {
+            return &layers[i];
+        }
+    }
+    return NULL;
+}
+
+static pm_compare_verdict say_leaning(const pm_compare_part *whole,
+                                      const pm_compare_part *leaning, char *sentence,
+                                      size_t room)
+{
+    const pm_coherence *found = &leaning->coherence;
+    double share = found->coherent / fabs(whole->mean_b);
     char where[64] = "";
-    if (leaning != NULL) {
-        snprintf(where, sizeof where, ", most of it in the layer %s", leaning->name);
+    if (leaning->name[0] != '\0') {
+        snprintf(where, sizeof where, " in the layer %s", leaning->name);
+    }
+    if (share < PM_COMPARE_SHARED && !whole->noise_known) {
+        snprintf(
+            sentence, room,
+            "unclear: whole regions differ the same way%s (z = %.1f), but only by %.2g %% "
+            "of the picture's mean, as photon maps of two seeds do; more photons or halves "
+            "would tell",
+            where, found->z, 100.0 * share);
+        return PM_COMPARE_UNCERTAIN;
     }
     snprintf(sentence, room,
-             "a fault or a bias, not noise: whole regions differ the same way (z = %.1f), by "
-             "%.2g %% of the mean%s",
-             whole->coherence.z, 100.0 * whole->coherence.coherent / fabs(whole->mean_b),
-             where);
+             "a fault or a bias, not noise: whole regions differ the same way%s (z = %.1f), by "
+             "%.2g %% of the picture's mean",
+             where, found->z, 100.0 * share);
+    return PM_COMPARE_FAULT;
+}
+
+// What needs no statistics: true when it has decided.
+static bool judge_plainly(const pm_compare_part *whole, const pm_compare_part *layers,
+                          int count, pm_compare_verdict *verdict, char *sentence, size_t room)
+{
+    const pm_compare_part *missing = find_missing(layers, count);
+    if (missing != NULL) {
+        bool in_a = missing->mean_b == 0.0;
+        snprintf(sentence, room, "a fault: the layer %s is black in %s only", missing->name,
+                 in_a ? "B" : "A");
+        *verdict = PM_COMPARE_FAULT;
+        return true;
+    }
+    if (whole->max == 0.0) {
+        snprintf(sentence, room, "the same: no pixel differs");
+        *verdict = PM_COMPARE_EQUAL;
+        return true;
+    }
+    if (whole->mean_b == 0.0) {
+        snprintf(sentence, room, "a fault: the right picture is black, the other is not");
+        *verdict = PM_COMPARE_FAULT;
+        return true;
+    }
+    return false;
 }
 
 pm_compare_verdict pm_compare_judge(const pm_compare_part *whole, const pm_compare_part *layers,
                                     int count, char *sentence, size_t room)
 {
-    const pm_coherence *found = &whole->coherence;
-    if (whole->max == 0.0) {
-        snprintf(sentence, room, "the same: no pixel differs");
-        return PM_COMPARE_EQUAL;
+    pm_compare_verdict verdict;
+    if (judge_plainly(whole, layers, count, &verdict, sentence, room)) {
+        return verdict;
     }
-    if (whole->mean_b == 0.0) {
-        snprintf(sentence, room, "a fault: the right picture is black, the other is not");
-        return PM_COMPARE_FAULT;
-    }
-    if (found->pairs < PM_COMPARE_PAIRS_MIN) {
+    if (whole->coherence.pairs < PM_COMPARE_PAIRS_MIN) {
         snprintf(sentence, room, "too few pixels to tell a fault from noise: render larger");
         return PM_COMPARE_UNCERTAIN;
     }
-    if (found->z <= PM_COMPARE_SIGMA) {
-        snprintf(sentence, room,
-                 "noise: neighbouring regions differ by chance (z = %.1f, a fault is above "
-                 "%.0f)",
-                 found->z, PM_COMPARE_SIGMA);
-        return PM_COMPARE_NOISE;
+    const pm_compare_part *leaning = find_leaning(whole, layers, count);
+    if (leaning != NULL) {
+        return say_leaning(whole, leaning, sentence, room);
     }
-    bool small = found->coherent < PM_COMPARE_SHARED * fabs(whole->mean_b);
-    if (small && !whole->noise_known) {
-        snprintf(
-            sentence, room,
-            "unclear: whole regions differ the same way (z = %.1f), but only by %.2g %% of "
-            "the mean, as two photon maps of different seeds do; more photons or halves "
-            "would tell",
-            found->z, 100.0 * found->coherent / fabs(whole->mean_b));
-        return PM_COMPARE_UNCERTAIN;
-    }
-    say_fault(whole, layers, count, sentence, room);
-    return PM_COMPARE_FAULT;
+    snprintf(
+        sentence, room,
+        "noise: regions differ by chance (z = %.1f, a fault is above %.0f); a fault within "
+        "a few tiles would show only in --map",
+        whole->coherence.z, PM_COMPARE_SIGMA);
+    return PM_COMPARE_NOISE;
 }
 
 static double luminance_at(const pm_image *image, size_t pixel)

@@ -146,6 +146,7 @@ static void left_out_pixels_do_not_count(void)
 static pm_compare_part part_of(const char *name, double z, double coherent, bool known)
 {
     pm_compare_part part = {.mean_b = 1.0,
+                            .mean_ratio = {1.0, 1.0, 1.0},
                             .max = 1.0,
                             .noise_known = known,
                             .coherence = {.pairs = 448, .z = z, .coherent = coherent}};
@@ -153,29 +154,50 @@ static pm_compare_part part_of(const char *name, double z, double coherent, bool
     return part;
 }
 
-static void verdicts_say_why(void)
+static pm_compare_verdict judge(const pm_compare_part *whole, const pm_compare_part *layer,
+                                const char *part_of_sentence)
 {
     char text[320];
-    pm_compare_part layers[2] = {part_of("direct", 3.0, 0.9, false),
-                                 part_of("caustic", 9.0, 0.2, false)};
+    pm_compare_verdict verdict =
+        pm_compare_judge(whole, layer, layer != NULL ? 1 : 0, text, sizeof text);
+    CHECK_CONTAINS(text, part_of_sentence);
+    return verdict;
+}
+
+static void verdicts_say_why(void)
+{
+    pm_compare_part quiet = part_of("direct", 3.0, 0.9, false);
+    pm_compare_part loud = part_of("caustic", 9.0, 0.2, false);
     pm_compare_part whole = part_of("", 3.0, 0.2, false);
-    CHECK(pm_compare_judge(&whole, layers, 2, text, sizeof text) == PM_COMPARE_NOISE);
-    CHECK_CONTAINS(text, "noise: neighbouring regions differ by chance (z = 3.0");
+    CHECK(judge(&whole, &quiet, "noise: regions differ by chance (z = 3.0") ==
+          PM_COMPARE_NOISE);
+    CHECK(judge(&whole, &loud, "in the layer caustic (z = 9.0), by 20 %") == PM_COMPARE_FAULT);
     whole = part_of("", 12.0, 0.08, false);
-    CHECK(pm_compare_judge(&whole, layers, 2, text, sizeof text) == PM_COMPARE_FAULT);
-    CHECK_CONTAINS(text, "(z = 12.0), by 8 % of the mean, most of it in the layer caustic");
+    CHECK(judge(&whole, &quiet, "the same way (z = 12.0), by 8 %") == PM_COMPARE_FAULT);
+    CHECK(judge(&whole, &loud, "in the layer caustic") == PM_COMPARE_FAULT);
     whole = part_of("", 12.0, 0.005, false);
-    CHECK(pm_compare_judge(&whole, layers, 2, text, sizeof text) == PM_COMPARE_UNCERTAIN);
-    CHECK_CONTAINS(text, "unclear: ");
-    whole = part_of("", 12.0, 0.005, true);
-    CHECK(pm_compare_judge(&whole, layers, 2, text, sizeof text) == PM_COMPARE_FAULT);
+    CHECK(judge(&whole, NULL, "unclear: ") == PM_COMPARE_UNCERTAIN);
+    whole.noise_known = true;
+    CHECK(judge(&whole, NULL, "not noise") == PM_COMPARE_FAULT);
     whole.coherence.pairs = 10;
-    CHECK(pm_compare_judge(&whole, layers, 2, text, sizeof text) == PM_COMPARE_UNCERTAIN);
-    CHECK_CONTAINS(text, "too few pixels");
+    CHECK(judge(&whole, NULL, "too few pixels") == PM_COMPARE_UNCERTAIN);
     whole.mean_b = 0.0;
-    CHECK(pm_compare_judge(&whole, layers, 2, text, sizeof text) == PM_COMPARE_FAULT);
+    CHECK(judge(&whole, NULL, "the right picture is black") == PM_COMPARE_FAULT);
     whole.max = 0.0;
-    CHECK(pm_compare_judge(&whole, layers, 2, text, sizeof text) == PM_COMPARE_EQUAL);
+    CHECK(judge(&whole, NULL, "no pixel differs") == PM_COMPARE_EQUAL);
+}
+
+static void a_layer_that_is_off_is_named(void)
+{
+    pm_compare_part whole = part_of("", 0.0, 0.0, false);
+    pm_compare_part layer = part_of("caustic", 0.0, 0.0, false);
+    memset(layer.mean_ratio, 0, sizeof layer.mean_ratio);
+    CHECK(judge(&whole, &layer, "the layer caustic is black in A only") == PM_COMPARE_FAULT);
+    layer = part_of("caustic", 0.0, 0.0, false);
+    layer.mean_b = 0.0;
+    CHECK(judge(&whole, &layer, "the layer caustic is black in B only") == PM_COMPARE_FAULT);
+    layer.max = 0.0; // black in both
+    CHECK(judge(&whole, &layer, "noise") == PM_COMPARE_NOISE);
 }
 
 PM_TESTS({"coherence.1", "z of uneven, spiky noise is a standard normal variable",
@@ -187,4 +209,6 @@ PM_TESTS({"coherence.1", "z of uneven, spiky noise is a standard normal variable
          {"coherence.4", "blotches that halves show as noise are no fault",
           noise_shown_by_halves_is_no_lean},
          {"coherence.5", "pixels that are left out do not count", left_out_pixels_do_not_count},
-         {"coherence.6", "the verdict says why, and names the layer", verdicts_say_why})
+         {"coherence.6", "the verdict says why, and names the layer", verdicts_say_why},
+         {"coherence.7", "a layer that is black in one picture only is a fault by name",
+          a_layer_that_is_off_is_named})

@@ -20,9 +20,12 @@ static const pm_options_program program = {
         "neighbours and a frame of 4 pixels; against a B with half1 and half2 it is\n"
         "mean((Y_A - Y_half1) (Y_A - Y_half2)) / mean(Y_B)^2, in which B's own noise drops "
         "out.\n"
-        "--same averages the difference over tiles and asks whether neighbouring tiles lean "
-        "the\n"
-        "same way; z is the sum of their products over its deviation, a fault is above 5.\n"
+        "--same averages the difference over tiles and asks, of the picture and of each "
+        "layer,\n"
+        "whether neighbouring tiles lean the same way: z is the sum of their products over "
+        "its\n"
+        "deviation, and chance stays below 5. Halves of a picture show how far its own noise\n"
+        "leans, which is taken off. What lies within a few tiles is not told from noise.\n"
         "Exit code 1: rel_mse is above --max-rel-mse, or --same found a fault.",
 };
 
