@@ -260,46 +260,60 @@ typedef struct {
     double plane2;
 } pending;
 
-/// Goes down from `node` to the nearest leaf, putting off the far sides. Returns the photons
-/// looked at.
-static uint64_t descend(const pm_photon_map *map, const pm_search *search, uint64_t node,
-                        candidates *held, pending *later, int *waiting)
+typedef struct {
+    const pm_photon_map *map;
+    const pm_search *search;
+    double widen[3];
+    candidates held;
+    pending later[TREE_HEIGHT + 1]; // the root, then one a level at most
+    int waiting;
+    uint64_t looked_at;
+} walk;
+
+/// Goes down from `node` to the nearest leaf, putting off the far sides.
+static void descend(walk *w, uint64_t node)
 {
-    uint64_t looked_at = 0;
-    while (node <= map->count) {
-        const pm_photon *photon = &map->photons[node - 1];
-        __builtin_prefetch(&map->photons[2 * node - 1]);
-        looked_at++;
-        consider(search, photon, (uint32_t)(node - 1), held);
+    const pm_search *search = w->search;
+    uint64_t count = w->map->count;
+    while (node <= count) {
+        const pm_photon *photon = &w->map->photons[node - 1];
+        __builtin_prefetch(&w->map->photons[2 * node - 1]);
+        w->looked_at++;
+        consider(search, photon, (uint32_t)(node - 1), &w->held);
         int axis = photon->flags & PM_PHOTON_AXIS;
         double beyond = pm_vec_axis(search->at, axis) - (double)photon->position[axis];
         uint64_t near = 2 * node + (beyond > 0.0 ? 1 : 0);
         uint64_t far = near ^ 1;
-        later[*waiting] = (pending){far, beyond * beyond};
-        *waiting += far <= map->count ? 1 : 0;
+        w->later[w->waiting] = (pending){far, beyond * beyond * w->widen[axis]};
+        w->waiting += far <= count ? 1 : 0;
         node = near;
     }
-    return looked_at;
 }
 
 pm_status pm_balance_nearest(const pm_photon_map *map, const pm_search *search,
                              pm_neighbour *nearest, uint32_t *found, uint64_t *visited)
 {
     PM_TRY(check_search(map, search));
+    walk w;
+    w.map = map;
+    w.search = search;
+    for (int axis = 0; axis < 3; axis++) {
+        w.widen[axis] = fmax(search->widen[axis], 1.0);
+    }
     // Not below the reach but at most at it: one step further, for a strict comparison.
-    candidates held = {nearest, search->k, 0, nextafter(search->radius2, HUGE_VAL)};
-    pending later[TREE_HEIGHT + 1] = {{1, 0.0}}; // first the root; then one a level at most
-    int waiting = 1;
-    uint64_t looked_at = 0;
-    while (waiting > 0) {
-        pending next = later[--waiting];
-        if (next.plane2 < held.limit) {
-            looked_at += descend(map, search, next.node, &held, later, &waiting);
+    w.held = (candidates){nearest, search->k, 0, nextafter(search->radius2, HUGE_VAL)};
+    w.later[0] = (pending){1, 0.0};
+    w.waiting = 1;
+    w.looked_at = 0;
+    while (w.waiting > 0) {
+        pending next = w.later[--w.waiting];
+        if (next.plane2 < w.held.limit) {
+            descend(&w, next.node);
         }
     }
-    *found = held.found;
+    *found = w.held.found;
     if (visited != NULL) {
-        *visited += looked_at;
+        *visited += w.looked_at;
     }
     return PM_OK;
 }
