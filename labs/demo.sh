@@ -22,6 +22,9 @@ step "render $scene: 512x512, 200000 + 100000 photons, gather 16"
 step "store the photon maps"
 "$bin/storage" $scene $photons -o $out/photons.ply --report $out/storage.json >$out/storage.txt
 
+step "balance the global map"
+"$bin/balancing" $scene -n 200000 -o $out/tree.ply --report $out/tree.json >$out/tree.txt
+
 step "trace paths"
 "$bin/tracing" $scene -n 2000 --dump $out/paths.csv >$out/tracing.txt
 
@@ -34,7 +37,7 @@ if [ -x "$bin/view" ]; then
     "$bin/view" photons $out/photons.ply $out/photons.caustic.ply --scene $scene \
         -o $out/photons.png
     "$bin/view" paths $out/paths.csv --scene $scene -o $out/paths.png
-    "$bin/view" tree $out/photons.ply --scene $scene -o $out/tree.png
+    "$bin/view" tree $out/tree.ply --scene $scene -o $out/tree.png
     "$bin/view" irradiance $out/floor.csv --scene $scene -o $out/irradiance.png
     drawn="
   photon positions         $out/photons.png

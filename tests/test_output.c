@@ -28,9 +28,11 @@ static const struct {
      "packing.angle_mean_deg packing.angle_max_deg"},
     {"balancing {S} -n 2000 --json",
      "photons height build_s visited_mean visited_mean_unbalanced queries_per_s"},
-    {"radiance {S} -n 2000 --at 0,-1,0 --normal 0,1,0 --runs 2 --json",
+    {"radiance {S} -n 2000 --at 0,0,0 --normal 0,1,0 --runs 2 --json",
      "irradiance sd radius found"},
-    {"filtering {S} -n 2000 --json", "none.mean none.rms none.normalisation cone.mean"},
+    {"filtering {S} -n 2000 --at 0,0,0 --normal 0,1,0 --json",
+     "filters.none.mean filters.cone.rms filters.gaussian.normalisation "
+     "filters.epanechnikov.mean"},
     {"render {S} --size 8x8 --photons 2000 --gather 1 --spp 1 --json -o {O}",
      "plan.direct.needed plan.direct.why plan.specular plan.caustic plan.indirect plan.volume "
      "plan.dispersion plan.projection maps settings flux seconds peak_bytes"},
@@ -146,8 +148,8 @@ static const char *const same_lines[] = {
     "tracing {S} -n 20000 --dump {O}",
     "tracing {S} -n 20000 --json",
     "balancing {S} -n 20000 --json",
-    "radiance {S} -n 20000 --runs 3 --at 0,-1,0 --normal 0,1,0 --json",
-    "filtering {S} -n 20000 --json",
+    "radiance {S} -n 20000 --runs 3 --at 0,0,0 --normal 0,1,0 --json",
+    "filtering {S} -n 20000 --at 0,0,0 --normal 0,1,0 --json",
     "render {S} --size 48x48 --photons 20000 --gather 4 --spp 2 -o /dev/null --json",
 };
 

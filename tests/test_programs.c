@@ -5,6 +5,7 @@
 
 #include <errno.h>
 #include <signal.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,7 +20,7 @@ static const char *const scene_lines[] = {
     "tracing {S} -n 2000 --dump {O}",
     "storage {S} -n 2000 -o {O}",
     "balancing {S} -n 2000 --json --report {O}",
-    "radiance {S} -n 2000 --at 0,-0.9,0 --normal 0,1,0 --json --report {O}",
+    "radiance {S} -n 2000 --at 0,0,0 --normal 0,1,0 --json --report {O}",
     "render {S} --size 12x12 --photons 2000 --gather 2 --spp 1 -o {O}",
 };
 enum { SCENE_LINES = sizeof scene_lines / sizeof scene_lines[0] };
@@ -78,6 +79,56 @@ static void refuse_bad_scenes(void)
         check_refused(scene_lines[i], text, "text.xml:1");
         check_refused(scene_lines[i], other, "other.xml:1");
     }
+}
+
+// The next of the parts `a | b | c` of a line, without blanks around it; NULL behind the last.
+static char *next_part(char **rest)
+{
+    if (!*rest) {
+        return NULL;
+    }
+    char *part = *rest + strspn(*rest, " ");
+    char *bar = strstr(part, " |");
+    *rest = bar ? bar + 2 : NULL;
+    if (bar) {
+        *bar = '\0';
+    }
+    return part;
+}
+
+// A line of bad/expected.txt: who, file, and the parts of what must be said about it.
+static void check_broken_scene(char *line, const char *program_line)
+{
+    char *rest = line;
+    (void)next_part(&rest);
+    char path[256];
+    snprintf(path, sizeof path, "tests/bad/%s", next_part(&rest));
+    pm_test_ran ran = pm_command_run(program_line, path, pm_command_path("out"));
+    for (const char *part = NULL; (part = next_part(&rest)) != NULL;) {
+        pm_command_check_refusal(path, &ran, part);
+    }
+    CHECK_THAT(pm_command_count_files() == 0, "%s: %s leaves a file", path, program_line);
+    pm_test_ran_free(&ran);
+}
+
+static void refuse_broken_scenes(void)
+{
+    pm_test_folder();
+    int lines = 0;
+    char line[1024];
+    FILE *list = fopen("tests/bad/expected.txt", "r");
+    CHECK(list != NULL);
+    while (fgets(line, sizeof line, list)) {
+        line[strcspn(line, "\n")] = '\0';
+        if (line[0] == '#' || line[0] == '\0') {
+            continue;
+        }
+        const char *program_line = scene_lines[lines++ % (int)SCENE_LINES];
+        bool picture = strncmp(line, "picture", 7) == 0;
+        check_broken_scene(line, picture ? scene_lines[SCENE_LINES - 1] : program_line);
+    }
+    fclose(list);
+    CHECK(lines > 100);
 }
 
 static const refusal any_number[] = {
@@ -209,7 +260,7 @@ static void stop_at_interrupt(void)
         "tracing {S} -n 200000000 --report {O}",
         "storage {S} -n 20000000 -o {O}",
         "balancing {S} -n 20000000 --report {O}",
-        "radiance {S} -n 1000000 --runs 1000 --at 0,-0.9,0 --normal 0,1,0 --report {O}",
+        "radiance {S} -n 1000000 --runs 1000 --at 0,0,0 --normal 0,1,0 --report {O}",
         "render {S} --size 2000x2000 --photons 20000 --gather 200 --spp 64 -o {O}",
         "render {S} --size 16x16 --photons 200000000 -o {O}",
     };
@@ -254,4 +305,6 @@ PM_TESTS({"programs.1", "good lines are accepted and leave their file", accept_g
          {"programs.8", "a full standard output is told", say_when_output_is_full},
          {"programs.9", "SIGINT ends with 130 and leaves no file", stop_at_interrupt},
          {"programs.10", "what is no picture and no photon map is refused",
-          refuse_bad_pictures})
+          refuse_bad_pictures},
+         {"programs.11", "each broken scene of tests/bad is refused with its own words",
+          refuse_broken_scenes})
