@@ -3,9 +3,10 @@
 
 #include "nearest.h"
 
+#include <stdbool.h>
 #include <string.h>
 
-bool pm_defaults_has(const pm_defaults *defaults, const char *name)
+static bool has(const pm_defaults *defaults, const char *name)
 {
     for (const pm_default *d = defaults->given; d != NULL; d = d->next) {
         if (strcmp(d->name, name) == 0) {
@@ -29,7 +30,7 @@ static const char *defined_value(const pm_defaults *defaults, const char *name,
 pm_status pm_defaults_give(pm_defaults *defaults, pm_arena *arena, const char *name,
                            const char *value)
 {
-    if (pm_defaults_has(defaults, name)) {
+    if (has(defaults, name)) {
         return PM_OK;
     }
     value = defined_value(defaults, name, value);
@@ -87,7 +88,8 @@ pm_status pm_defaults_replace(const pm_defaults *defaults, pm_arena *arena, cons
     return PM_ENOMEM;
 }
 
-const char *pm_defaults_nearest(const pm_defaults *defaults, const char *name)
+/// The nearest name given so far, or NULL.
+static const char *nearest_name(const pm_defaults *defaults, const char *name)
 {
     const char *nearest = NULL;
     for (const pm_default *d = defaults->given; d != NULL; d = d->next) {
@@ -95,4 +97,31 @@ const char *pm_defaults_nearest(const pm_defaults *defaults, const char *name)
         nearest = pm_nearest_word(name, pair, nearest == NULL ? 1 : 2);
     }
     return nearest;
+}
+
+void pm_defaults_report_unknown(const pm_defaults *defaults, const char *name,
+                                pm_faults *faults, const char *file, int line)
+{
+    const char *nearest = nearest_name(defaults, name);
+    if (nearest == NULL) {
+        pm_faults_add(faults, file, line, "\"$%.60s\" has no <default> before it", name);
+    } else {
+        pm_faults_add(faults, file, line,
+                      "\"$%.60s\" has no <default> before it; the nearest is \"%.60s\"", name,
+                      nearest);
+    }
+}
+
+void pm_defaults_report_unused(const pm_defaults *defaults, pm_faults *faults, const char *path)
+{
+    for (int i = 0; i < defaults->define_count; i++) {
+        const char *name = defaults->defines[i].name;
+        if (has(defaults, name)) {
+            continue;
+        }
+        const char *nearest = nearest_name(defaults, name);
+        pm_faults_add(
+            faults, path, 0, "-D %.60s: the file has no <default> of this name%s%.60s", name,
+            nearest == NULL ? "" : "; the nearest is ", nearest == NULL ? "" : nearest);
+    }
 }

@@ -4,6 +4,7 @@
 #define PM_DEFAULTS_H
 
 #include "arena.h"
+#include "faults.h"
 #include "scene_read.h"
 
 typedef struct pm_default {
@@ -31,10 +32,12 @@ pm_status pm_defaults_give(pm_defaults *defaults, pm_arena *arena, const char *n
 pm_status pm_defaults_replace(const pm_defaults *defaults, pm_arena *arena, const char *text,
                               const char **result, const char **unknown);
 
-/// The nearest name given so far, or NULL.
-const char *pm_defaults_nearest(const pm_defaults *defaults, const char *name);
+/// Adds the fault that no <default> before `file`:`line` gives `name`.
+void pm_defaults_report_unknown(const pm_defaults *defaults, const char *name,
+                                pm_faults *faults, const char *file, int line);
 
-/// Whether a <default> has given `name`.
-bool pm_defaults_has(const pm_defaults *defaults, const char *name);
+/// Adds a fault for every define that no <default> has asked for, once all is read.
+void pm_defaults_report_unused(const pm_defaults *defaults, pm_faults *faults,
+                               const char *path);
 
 #endif

@@ -40,8 +40,6 @@ typedef struct layer {
 
 static void read_file(layer *file);
 
-const char pm_xml_faulty[] = "";
-
 static int line_of(const layer *file)
 {
     return (int)XML_GetCurrentLineNumber(file->parser);
@@ -62,17 +60,6 @@ static void stop_without_memory(const layer *file)
     stop(file);
 }
 
-static void report_unknown_name(const layer *file, const char *name)
-{
-    const char *nearest = pm_defaults_nearest(&file->all->defaults, name);
-    if (nearest == NULL) {
-        FAULT(file, "\"$%.60s\" has no <default> before it", name);
-    } else {
-        FAULT(file, "\"$%.60s\" has no <default> before it; the nearest is \"%.60s\"", name,
-              nearest);
-    }
-}
-
 /// `text` with its $names replaced; NULL without memory.
 static const char *replaced(const layer *file, const char *text)
 {
@@ -83,7 +70,8 @@ static const char *replaced(const layer *file, const char *text)
         return NULL;
     }
     if (unknown != NULL) {
-        report_unknown_name(file, unknown);
+        pm_defaults_report_unknown(&file->all->defaults, unknown, file->all->faults, file->path,
+                                   line_of(file));
         return pm_xml_faulty;
     }
     return result;
@@ -104,16 +92,6 @@ static const char **own_attributes(const layer *file, const char **given)
         }
     }
     return own;
-}
-
-const char *pm_xml_attribute(const pm_xml *element, const char *name)
-{
-    for (const char **a = element->attributes; *a != NULL; a += 2) {
-        if (strcmp(a[0], name) == 0) {
-            return a[1];
-        }
-    }
-    return NULL;
 }
 
 /// Both attributes that <default> and <include> live by; a fault when one is missing or
@@ -198,17 +176,6 @@ static pm_xml *new_element(const layer *file, const char *tag, const char **attr
     return element->tag == NULL || element->attributes == NULL ? NULL : element;
 }
 
-static void append(pm_xml *parent, pm_xml *element)
-{
-    element->parent = parent;
-    if (parent->last == NULL) {
-        parent->child = element;
-    } else {
-        parent->last->next = element;
-    }
-    parent->last = element;
-}
-
 static void check_root(layer *file, pm_xml *element)
 {
     file->root = element;
@@ -245,7 +212,7 @@ static void place(layer *file, pm_xml *element)
     } else if (strcmp(element->tag, "include") == 0) {
         include(file, element);
     } else {
-        append(parent, element);
+        pm_xml_append(parent, element);
     }
 }
 
@@ -400,20 +367,6 @@ static void read_file(layer *file)
     fclose(stream);
 }
 
-static void check_defines(const reading *all, const char *path)
-{
-    for (int i = 0; i < all->defaults.define_count; i++) {
-        const char *name = all->defaults.defines[i].name;
-        if (pm_defaults_has(&all->defaults, name)) {
-            continue;
-        }
-        const char *nearest = pm_defaults_nearest(&all->defaults, name);
-        pm_faults_add(
-            all->faults, path, 0, "-D %.60s: the file has no <default> of this name%s%.60s",
-            name, nearest == NULL ? "" : "; the nearest is ", nearest == NULL ? "" : nearest);
-    }
-}
-
 pm_xml *pm_xml_read(const char *path, const pm_define *defines, int define_count,
                     pm_arena *arena, pm_faults *faults)
 {
@@ -430,18 +383,7 @@ pm_xml *pm_xml_read(const char *path, const pm_define *defines, int define_count
     pm_xml *root = all.broken ? NULL : file->root;
     free(file);
     if (root != NULL) {
-        check_defines(&all, own_path);
+        pm_defaults_report_unused(&all.defaults, faults, own_path);
     }
     return root;
-}
-
-pm_xml *pm_xml_following(const pm_xml *root, pm_xml *element)
-{
-    if (element->child != NULL) {
-        return element->child;
-    }
-    while (element != root && element->next == NULL) {
-        element = element->parent;
-    }
-    return element == root ? NULL : element->next;
 }

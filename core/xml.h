@@ -42,6 +42,9 @@ pm_xml *pm_xml_read(const char *path, const pm_define *defines, int define_count
 /// The value of an attribute, or NULL.
 const char *pm_xml_attribute(const pm_xml *element, const char *name);
 
+/// Makes `element` the last one inside `parent`.
+void pm_xml_append(pm_xml *parent, pm_xml *element);
+
 /// The element after `element` in document order within `root`, or NULL.
 pm_xml *pm_xml_following(const pm_xml *root, pm_xml *element);
 

@@ -6,7 +6,6 @@
 
 #include <stdarg.h>
 #include <stdio.h>
-#include <string.h>
 
 const char *pm_scene_text_write(const char *name, const char *text)
 {
@@ -33,23 +32,23 @@ pm_status pm_scene_text_read(pm_scene *scene, const char *format, ...)
     return pm_scene_read(pm_scene_text_write("scene.xml", text), NULL, 0, false, scene);
 }
 
-int pm_scene_text_shape(const pm_scene *scene, const char *id)
-{
-    for (int i = 0; i < scene->shape_count; i++) {
-        if (strcmp(scene->shapes[i].id, id) == 0) {
-            return i;
-        }
-    }
-    pm_test_fail(__FILE__, __LINE__, "no shape has the id %s", id);
-}
-
-pm_vec3 pm_scene_text_normal(const pm_scene *scene, pm_vec3 origin, pm_vec3 direction)
+static pm_hit meet(const pm_scene *scene, const pm_ray *ray)
 {
     pm_intersector world;
     pm_hit hit;
     CHECK_OK(pm_intersect_plain(scene, &world));
-    pm_ray ray = {pm_vec_sub(origin, scene->center), direction, INFINITY, 0.0, PM_NONE};
-    CHECK_THAT(pm_closest(&world, &ray, &hit), "the ray meets nothing");
+    CHECK_THAT(pm_closest(&world, ray, &hit), "the ray meets nothing");
     pm_intersector_free(&world);
-    return hit.normal;
+    return hit;
+}
+
+int pm_scene_text_first(const pm_scene *scene, const pm_ray *ray)
+{
+    return meet(scene, ray).shape;
+}
+
+pm_vec3 pm_scene_text_normal(const pm_scene *scene, pm_vec3 origin, pm_vec3 direction)
+{
+    pm_ray ray = {pm_vec_sub(origin, scene->center), direction, INFINITY, 0.0, PM_NONE};
+    return meet(scene, &ray).normal;
 }

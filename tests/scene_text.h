@@ -2,6 +2,7 @@
 #ifndef PM_SCENE_TEXT_H
 #define PM_SCENE_TEXT_H
 
+#include "intersect.h"
 #include "scene_read.h"
 
 /// Writes `text` to the file `name` in the test's folder. The path is valid until the next
@@ -15,8 +16,8 @@ __attribute__((format(printf, 2, 3)))
 pm_status
 pm_scene_text_read(pm_scene *scene, const char *format, ...);
 
-/// The index of the shape with this id; fails the test when there is none.
-int pm_scene_text_shape(const pm_scene *scene, const char *id);
+/// The shape that a ray meets first; fails the test when it meets none.
+int pm_scene_text_first(const pm_scene *scene, const pm_ray *ray);
 
 /// The normal of what a ray from `origin` along `direction` meets, in the file's coordinates;
 /// fails the test when it meets nothing.
