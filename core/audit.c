@@ -6,6 +6,13 @@
 #include <string.h>
 
 #define CLOSES_TO 1e-12 // of the power emitted: rounding of some 1e8 additions in double
+#define SIGMAS 5.0
+// Survivors that may be missing altogether: of 15 expected, none comes with probability
+// e^-15 = 3e-7, as rare as 5 sigma.
+#define RARE 15.0
+// A survivor carries at most this many times the largest channel it arrived with: the
+// roulette's average rule divides by a third of the albedo where only one channel is reflected.
+#define SURVIVOR_MOST 3.0
 
 pm_status pm_audit_make(int shape_count, pm_audit *audit)
 {
@@ -48,6 +55,7 @@ static void judge_roulette(pm_audit *audit, const pm_event *event)
     pm_spectrum gap = pm_spectrum_sub(event->chosen, promised);
     grow(&audit->roulette, gap);
     grow(&audit->roulette_variance, pm_spectrum_mul(gap, gap));
+    audit->largest = fmax(audit->largest, pm_spectrum_max(event->arriving));
 }
 
 static void end_photon(pm_audit *audit, const pm_event *event)
@@ -118,6 +126,7 @@ void pm_audit_add(pm_audit *audit, const pm_audit *part)
     grow(&audit->lost, part->lost);
     grow(&audit->roulette, part->roulette);
     grow(&audit->roulette_variance, part->roulette_variance);
+    audit->largest = fmax(audit->largest, part->largest);
     for (int i = 0; i < audit->shape_count; i++) {
         grow(&audit->shapes[i].incident, part->shapes[i].incident);
         grow(&audit->shapes[i].absorbed, part->shapes[i].absorbed);
@@ -137,6 +146,7 @@ void pm_audit_scale(pm_audit *audit, double factor)
     shrink(&audit->lost, factor);
     shrink(&audit->roulette, factor);
     shrink(&audit->roulette_variance, factor * factor);
+    audit->largest *= factor;
     for (int i = 0; i < audit->shape_count; i++) {
         shrink(&audit->shapes[i].incident, factor);
         shrink(&audit->shapes[i].absorbed, factor);
@@ -154,7 +164,8 @@ static pm_status check_channel(const pm_audit *audit, int c)
             name[c], emitted, rest);
     }
     double sd = sqrt(audit->roulette_variance.c[c]);
-    if (!(fabs(audit->roulette.c[c]) <= 5.0 * sd + CLOSES_TO * emitted)) {
+    double chance = SIGMAS * sd + RARE * SURVIVOR_MOST * audit->largest;
+    if (!(fabs(audit->roulette.c[c]) <= chance + CLOSES_TO * emitted)) {
         return pm_status_fail(
             PM_ELIMIT,
             "audit: roulette carries on %+.3g W of %s beyond the albedos' promise,"
