@@ -63,7 +63,7 @@ static pm_status check_channels(const reading *r)
         if (channel->x_sampling != 1 || channel->y_sampling != 1) {
             return refuse(r, "it has a subsampled channel");
         }
-        if (channel->name.length < 1 || channel->name.length >= (int)sizeof r->image.name[0]) {
+        if (channel->name.length < 1 || channel->name.length >= PM_IMAGE_NAME_ROOM) {
             return refuse(r, "it has a channel whose name is not 1 to 31 letters long");
         }
     }

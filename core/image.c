@@ -1,6 +1,7 @@
 // Planes are allocated one by one, so that a channel is a plain pointer.
 #include "image.h"
 
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,10 +13,9 @@ static pm_status check_names(const char *const *names, int count)
         return PM_FAIL(PM_EINPUT, "an image has 0 to %d channels, got %d",
                        PM_IMAGE_CHANNELS_MAX, count);
     }
-    pm_image known = {0};
     for (int i = 0; i < count; i++) {
         size_t length = strlen(names[i]);
-        if (length == 0 || length >= sizeof known.name[0]) {
+        if (length == 0 || length >= PM_IMAGE_NAME_ROOM) {
             return PM_FAIL(PM_EINPUT, "a channel name has 1 to 31 letters, got \"%s\"",
                            names[i]);
         }
@@ -28,6 +28,16 @@ static pm_status check_names(const char *const *names, int count)
     return PM_OK;
 }
 
+static bool add_plane(pm_image *image, const char *name)
+{
+    size_t pixels = (size_t)image->width * (size_t)image->height;
+    int channel = image->channel_count++;
+    strcpy(image->name[channel], name);
+    // pm_image_free() gives it back, which the analyzer loses sight of.
+    image->plane[channel] = calloc(pixels, sizeof(float)); // NOLINT(clang-analyzer-unix.Malloc)
+    return image->plane[channel] != NULL;
+}
+
 pm_status pm_image_make(int width, int height, const char *const *names, int count,
                         pm_image *out)
 {
@@ -37,15 +47,14 @@ pm_status pm_image_make(int width, int height, const char *const *names, int cou
     }
     PM_TRY(check_names(names, count));
     pm_image image = {.width = width, .height = height};
-    for (int i = 0; i < count; i++) {
-        strcpy(image.name[i], names[i]);
-        image.plane[i] = calloc((size_t)width * (size_t)height, sizeof(float));
-        if (image.plane[i] == NULL) {
-            pm_image_free(&image);
-            return PM_FAIL(PM_ENOMEM, "no memory for an image of %dx%d with %d channels", width,
-                           height, count);
-        }
-        image.channel_count++;
+    bool made = true;
+    for (int i = 0; i < count && made; i++) {
+        made = add_plane(&image, names[i]);
+    }
+    if (!made) {
+        pm_image_free(&image);
+        return PM_FAIL(PM_ENOMEM, "no memory for an image of %dx%d with %d channels", width,
+                       height, count);
     }
     *out = image;
     return PM_OK;

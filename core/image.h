@@ -8,13 +8,14 @@
 #include <stdint.h>
 
 #define PM_IMAGE_CHANNELS_MAX 64
+#define PM_IMAGE_NAME_ROOM 32 // bytes, with the final zero
 
 /// Channels are named as in the EXR file ("R", "caustic.R", "depth.Z"). Each is width * height
 /// floats, rows from the top.
 typedef struct {
     int width, height;
     int channel_count;
-    char name[PM_IMAGE_CHANNELS_MAX][32];
+    char name[PM_IMAGE_CHANNELS_MAX][PM_IMAGE_NAME_ROOM];
     float *plane[PM_IMAGE_CHANNELS_MAX];
 } pm_image;
 

@@ -87,8 +87,9 @@ static const setting *find_setting(const parser *p, const char *key)
     return NULL;
 }
 
-static void add_setting(parser *p, const pm_option *option, char *value)
+static void add_setting(parser *p, setting given)
 {
+    const pm_option *option = given.option;
     char name[32];
     bool repeats = option->kind == PM_OPTION_DEFINE || option->kind == PM_OPTION_MAP ||
                    option->kind == PM_OPTION_FLAG;
@@ -98,7 +99,7 @@ static void add_setting(parser *p, const pm_option *option, char *value)
     } else if (p->setting_count == SETTINGS_MAX) {
         add_fault(p, "more than %d options", SETTINGS_MAX);
     } else {
-        p->settings[p->setting_count++] = (setting){option, value};
+        p->settings[p->setting_count++] = given;
     }
 }
 
@@ -107,7 +108,7 @@ static void refuse_unknown(parser *p, const char *given)
     size_t length = strcspn(given, "=");
     char word[64];
     snprintf(word, sizeof word, "%.*s", (int)length, given);
-    const pm_option *nearest = NULL;
+    const pm_option *nearest = p->taken[0]; // --help, at least, is always taken
     int least = 1 << 20;
     for (int i = 0; i < p->taken_count; i++) {
         char name[32];
@@ -193,12 +194,13 @@ static void read_words(int argc, char **argv, parser *p)
     opterr = 0;
     int code;
     while ((code = getopt_long(argc, argv, shorts, longs, NULL)) != -1) {
-        if (code == '?' || code == ':') {
+        const pm_option *option = find_taken(p, code);
+        if (option == NULL) { // '?' or ':'
             refuse_word(p, code, argv);
-        } else if (code >= LONG_CODE && is_abbreviated(argv, find_taken(p, code))) {
+        } else if (code >= LONG_CODE && is_abbreviated(argv, option)) {
             refuse_unknown(p, argv[optind - (optarg == argv[optind - 1] ? 2 : 1)]);
         } else {
-            add_setting(p, find_taken(p, code), optarg);
+            add_setting(p, (setting){option, optarg});
         }
     }
 }

@@ -103,9 +103,9 @@ static bool write_all(FILE *stream, const pm_photon_map *map, const pm_photon_co
     }
     header->crc = crc;
     pm_photon_header_print(header, text);
-    char *digits = pm_photon_header_crc_digits(text);
-    return fseek(stream, (long)(digits - text), SEEK_SET) == 0 &&
-           fwrite(digits, 1, 8, stream) == 8;
+    size_t digits = pm_photon_header_crc_at(text);
+    return fseek(stream, (long)digits, SEEK_SET) == 0 &&
+           fwrite(text + digits, 1, 8, stream) == 8;
 }
 
 pm_status pm_photon_file_write(const char *path, const pm_photon_map *map,

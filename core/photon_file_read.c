@@ -88,7 +88,7 @@ static pm_status read_header(reading *r)
     size_t got = fread(text, 1, sizeof text - 1, r->stream);
     text[got] = '\0';
     PM_TRY(pm_photon_header_parse(r->path, text, &r->header, &r->length));
-    memset(pm_photon_header_crc_digits(text), '0', 8);
+    memset(text + pm_photon_header_crc_at(text), '0', 8);
     r->crc = (uint32_t)crc32(0, (const Bytef *)text, (uInt)r->length);
     if (fseek(r->stream, (long)r->length, SEEK_SET) != 0) {
         return pm_status_fail(PM_EIO, "%s: cannot be read: %s", r->path, strerror(errno));

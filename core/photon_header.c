@@ -87,7 +87,8 @@ static void put_properties(printer *p, const pm_photon_header *header)
 
 size_t pm_photon_header_print(const pm_photon_header *header, char *text)
 {
-    printer p = {.text = text};
+    printer p = {0};
+    p.text = text;
     put(&p, "ply\nformat binary_little_endian 1.0\n" MAGIC "%d\n", PM_PHOTON_FILE_VERSION);
     put_comments(&p, header);
     put(&p, "element vertex %" PRIu32 "\n", header->map.count);
@@ -102,9 +103,11 @@ static const char *find_value(const char *text, const char *key)
     return at == NULL ? "" : at + strlen(key);
 }
 
-char *pm_photon_header_crc_digits(char *text)
+size_t pm_photon_header_crc_at(const char *text)
 {
-    return text + (find_value(text, "\ncomment crc32 ") - text);
+    static const char key[] = "\ncomment crc32 ";
+    const char *line = strstr(text, key);
+    return line == NULL ? 0 : (size_t)(line - text) + strlen(key);
 }
 
 static uint64_t parse_count(const char *text, const char *key)

@@ -26,8 +26,8 @@ size_t pm_photon_header_row(const pm_photon_header *header);
 /// @return its length
 size_t pm_photon_header_print(const pm_photon_header *header, char *text);
 
-/// Where the eight digits of the CRC stand in a printed text.
-char *pm_photon_header_crc_digits(char *text);
+/// Where in a printed text the eight digits of the CRC begin.
+size_t pm_photon_header_crc_at(const char *text);
 
 /// Parses the beginning of a file.
 ///

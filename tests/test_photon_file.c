@@ -160,7 +160,7 @@ static void layout_is_that_of_the_design(void)
     CHECK_CONTAINS(text, "property uchar phi\nproperty ushort flags\nend_header\n");
     CHECK(strcmp(text + strlen(text) - 11, "end_header\n") == 0);
     // The CRC is zlib's, over the whole file with zeros in the place of its digits.
-    char *digits = pm_photon_header_crc_digits((char *)bytes);
+    char *digits = (char *)bytes + pm_photon_header_crc_at((char *)bytes);
     unsigned long told = strtoul(digits, NULL, 16);
     memset(digits, '0', 8);
     CHECK(crc32(0, bytes, (uInt)size) == told);
@@ -216,7 +216,7 @@ static void forge(const char *from, const char *to)
     memcpy(forged + before, to, strlen(to));
     memcpy(forged + before + strlen(to), at + strlen(from), size - before - strlen(from));
     size_t length = size - strlen(from) + strlen(to);
-    char *digits = pm_photon_header_crc_digits((char *)forged);
+    char *digits = (char *)forged + pm_photon_header_crc_at((char *)forged);
     memset(digits, '0', 8);
     char crc[9];
     snprintf(crc, sizeof crc, "%08lx", crc32(0, forged, (uInt)length));
