@@ -3,6 +3,7 @@
 
 #include "test.h"
 
+#include <omp.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -88,6 +89,55 @@ pm_spectrum pm_pictures_layer(const pm_image *image, pm_layer layer)
         mean.c[c] = pm_pictures_mean(image, name);
     }
     return mean;
+}
+
+void pm_pictures_add(pm_pictures_means *sums, const pm_spectrum layer[PM_LAYER_COUNT])
+{
+    for (int l = 0; l < PM_LAYER_COUNT; l++) {
+        pm_spectrum square = pm_spectrum_mul(layer[l], layer[l]);
+        sums->mean[l] = pm_spectrum_add(sums->mean[l], layer[l]);
+        sums->variance[l] = pm_spectrum_add(sums->variance[l], square);
+    }
+}
+
+void pm_pictures_finish(pm_pictures_means *sums, double count)
+{
+    for (int l = 0; l < PM_LAYER_COUNT; l++) {
+        for (int c = 0; c < 3; c++) {
+            double mean = sums->mean[l].c[c] / count;
+            double spread = fmax(0.0, sums->variance[l].c[c] / count - mean * mean);
+            sums->mean[l].c[c] = mean;
+            sums->variance[l].c[c] = spread / (count - 1.0);
+        }
+    }
+}
+
+pm_pictures_means pm_pictures_repeat(const pm_scenes *s, pm_render_settings settings,
+                                     uint32_t runs)
+{
+    pm_pictures_means means = {0};
+    omp_set_num_threads(1); // the runner keeps the other cores busy
+    for (settings.seed = 1; settings.seed <= runs; settings.seed++) {
+        pm_image image = pm_pictures_take(s, &settings);
+        pm_spectrum layer[PM_LAYER_COUNT];
+        for (int l = 0; l < PM_LAYER_COUNT; l++) {
+            layer[l] = pm_pictures_layer(&image, (pm_layer)l);
+        }
+        pm_pictures_add(&means, layer);
+        pm_image_free(&image);
+    }
+    pm_pictures_finish(&means, (double)runs);
+    return means;
+}
+
+void pm_pictures_close(const char *file, int line, const char *what, double got, double want,
+                       double variance, double slack)
+{
+    double bound = 5.0 * sqrt(variance) + slack * fabs(want);
+    if (!(fabs(got - want) <= bound)) {
+        pm_test_fail(file, line, "%s: got %.9g, want %.9g, within %.3g (5 sigma = %.3g)", what,
+                     got, want, bound, 5.0 * sqrt(variance));
+    }
 }
 
 static bool is_among(const char *name, const char *const *names)

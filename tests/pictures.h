@@ -26,6 +26,27 @@ double pm_pictures_at(const pm_image *image, const char *channel, int x, int y);
 double pm_pictures_mean(const pm_image *image, const char *channel);
 pm_spectrum pm_pictures_layer(const pm_image *image, pm_layer layer);
 
+/// Radiance by layer, meant over the film, and the variance of these means.
+typedef struct {
+    pm_spectrum mean[PM_LAYER_COUNT];
+    pm_spectrum variance[PM_LAYER_COUNT];
+} pm_pictures_means;
+
+/// Means over pictures with the seeds 1 .. `runs`, whose scatter tells the variance.
+pm_pictures_means pm_pictures_repeat(const pm_scenes *s, pm_render_settings settings,
+                                     uint32_t runs);
+
+/// Adds one set of layers to sums; turns sums of `count` sets into means and variances.
+void pm_pictures_add(pm_pictures_means *sums, const pm_spectrum layer[PM_LAYER_COUNT]);
+void pm_pictures_finish(pm_pictures_means *sums, double count);
+
+/// Ends the test unless |got - want| is within 5 standard deviations plus `slack` times want.
+void pm_pictures_close(const char *file, int line, const char *what, double got, double want,
+                       double variance, double slack);
+
+#define CHECK_CLOSE(what, got, want, variance, slack)                                          \
+    pm_pictures_close(__FILE__, __LINE__, (what), (got), (want), (variance), (slack))
+
 /// Ends the test unless every channel of `got` but those named in `but` (or NULL) is that of
 /// `want` times `factor`, bit for bit.
 void pm_pictures_same(const char *file, int line, const pm_image *got, const pm_image *want,

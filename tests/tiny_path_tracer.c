@@ -17,11 +17,6 @@ typedef struct {
     int events;
 } tiny_path;
 
-typedef struct {
-    pm_spectrum sum[PM_LAYER_COUNT];
-    pm_spectrum square[PM_LAYER_COUNT];
-} tally;
-
 static pm_layer sort_path(const char *met)
 {
     if (met[0] == '\0') {
@@ -84,7 +79,7 @@ static void follow(const pm_intersector *world, tiny_path *path, pm_rng *rng,
     }
 }
 
-static void trace_one(const pm_intersector *world, uint64_t index, tally *block)
+static void trace_one(const pm_intersector *world, uint64_t index, pm_pictures_means *sums)
 {
     const pm_rng_source source = {.seed = 7, .stream = PM_STREAM_TEST};
     pm_rng rng = pm_rng_at(&source, index, 0);
@@ -94,45 +89,31 @@ static void trace_one(const pm_intersector *world, uint64_t index, tally *block)
                       .weight = pm_gray(1.0)};
     pm_spectrum layer[PM_LAYER_COUNT] = {0};
     follow(world, &path, &rng, layer);
-    for (int l = 0; l < PM_LAYER_COUNT; l++) {
-        block->sum[l] = pm_spectrum_add(block->sum[l], layer[l]);
-        pm_spectrum square = pm_spectrum_mul(layer[l], layer[l]);
-        block->square[l] = pm_spectrum_add(block->square[l], square);
-    }
+    pm_pictures_add(sums, layer);
 }
 
-static void add(tally *all, const tally *block)
+static void add(pm_pictures_means *all, const pm_pictures_means *block)
 {
     for (int l = 0; l < PM_LAYER_COUNT; l++) {
-        all->sum[l] = pm_spectrum_add(all->sum[l], block->sum[l]);
-        all->square[l] = pm_spectrum_add(all->square[l], block->square[l]);
+        all->mean[l] = pm_spectrum_add(all->mean[l], block->mean[l]);
+        all->variance[l] = pm_spectrum_add(all->variance[l], block->variance[l]);
     }
 }
 
-pm_tiny_picture pm_tiny_trace(const pm_intersector *world, uint32_t paths)
+pm_pictures_means pm_tiny_trace(const pm_intersector *world, uint32_t paths)
 {
     for (int i = 0; i < world->scene->light_count; i++) {
         CHECK(world->scene->lights[i].type == PM_LIGHT_AREA);
     }
     int blocks = (int)((paths + BLOCK - 1) / BLOCK);
-    tally all = {0};
-#pragma omp parallel for ordered schedule(dynamic, 1)
+    pm_pictures_means all = {0};
     for (int b = 0; b < blocks; b++) {
-        tally block = {0};
+        pm_pictures_means block = {0};
         for (uint64_t i = 0; i < BLOCK; i++) {
             trace_one(world, (uint64_t)b * BLOCK + i, &block);
         }
-#pragma omp ordered
         add(&all, &block);
     }
-    pm_tiny_picture picture;
-    double n = (double)blocks * BLOCK;
-    for (int l = 0; l < PM_LAYER_COUNT; l++) {
-        pm_spectrum mean = pm_spectrum_scale(all.sum[l], 1.0 / n);
-        pm_spectrum spread = pm_spectrum_sub(pm_spectrum_scale(all.square[l], 1.0 / n),
-                                             pm_spectrum_mul(mean, mean));
-        picture.mean[l] = mean;
-        picture.variance[l] = pm_spectrum_scale(spread, 1.0 / n);
-    }
-    return picture;
+    pm_pictures_finish(&all, (double)blocks * BLOCK);
+    return all;
 }

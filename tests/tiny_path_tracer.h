@@ -4,15 +4,11 @@
 #define PM_TINY_PATH_TRACER_H
 
 #include "intersect.h"
-#include "layer.h"
+#include "pictures.h"
 
 /// Radiance by layer, meant over the whole film of the scene's camera.
-typedef struct {
-    pm_spectrum mean[PM_LAYER_COUNT];
-    pm_spectrum variance[PM_LAYER_COUNT]; // of these means
-} pm_tiny_picture;
-
+///
 /// @param paths  rounded up to whole thousands; every light must be an area light
-pm_tiny_picture pm_tiny_trace(const pm_intersector *world, uint32_t paths);
+pm_pictures_means pm_tiny_trace(const pm_intersector *world, uint32_t paths);
 
 #endif
