@@ -126,7 +126,7 @@ static void integrating_sphere_is_evenly_lit(void)
     // The k nearest, without a reach; the discs of all probes hold different photons.
     sphere_probes(probes, PROBES);
     settings.k = 2000;
-    settings.radius = INFINITY;
+    settings.radius = HUGE_VAL;
     double got = mean_irradiance(&map, settings, probes, PROBES);
     CHECK_NEAR(got, want, want * pm_chance_bound(1.0, PROBES * 2000.0));
     pm_photon_map_free(&map);

@@ -99,7 +99,7 @@ static void desk_ready(desk *d)
 static pm_eye look(const desk *d, pm_vec3 from, pm_vec3 to, uint64_t index)
 {
     pm_vec3 way = pm_vec_normalize(pm_vec_sub(to, from));
-    pm_ray ray = {from, way, INFINITY, 0.0, PM_NONE};
+    pm_ray ray = {from, way, HUGE_VAL, 0.0, PM_NONE};
     pm_eye eye = {0};
     CHECK_OK(pm_compose_eye(&d->compose, &ray, 3, 2, index, &eye));
     return eye;
@@ -108,7 +108,7 @@ static pm_eye look(const desk *d, pm_vec3 from, pm_vec3 to, uint64_t index)
 static double gather(desk *d, pm_vec3 from, pm_vec3 to, uint64_t index)
 {
     pm_vec3 way = pm_vec_normalize(pm_vec_sub(to, from));
-    pm_ray ray = {from, way, INFINITY, 0.0, PM_NONE};
+    pm_ray ray = {from, way, HUGE_VAL, 0.0, PM_NONE};
     pm_vertex at = {.pixel = 3, .sample = 2, .vertex = 1};
     pm_rng rng = pm_rng_at(&d->compose.source, index, 9);
     pm_spectrum radiance;
@@ -305,7 +305,7 @@ static void failures_of_a_source_come_back(void)
     desk_ready(&d);
     d.compose.ask.caustic = say_broken;
     d.compose.ask.global = say_broken;
-    pm_ray ray = {middle, down, INFINITY, 0.0, PM_NONE};
+    pm_ray ray = {middle, down, HUGE_VAL, 0.0, PM_NONE};
     pm_eye eye = {0};
     CHECK_FAILS(pm_compose_eye(&d.compose, &ray, 0, 0, 0, &eye), PM_ENOMEM, "lookup broke");
     pm_vertex at = {.vertex = 1};
