@@ -10,7 +10,7 @@ static inline pm_ray pm_camera_ray(const pm_camera *camera, double u, double v)
     pm_vec3 across = pm_vec_scale(camera->right, (2.0 * u - 1.0) * camera->tan_x);
     pm_vec3 up = pm_vec_scale(camera->up, (1.0 - 2.0 * v) * camera->tan_y);
     pm_vec3 direction = pm_vec_add(camera->forward, pm_vec_add(across, up));
-    return (pm_ray){camera->position, pm_vec_normalize(direction), INFINITY, 0.0,
+    return (pm_ray){camera->position, pm_vec_normalize(direction), HUGE_VAL, 0.0,
                     camera->medium};
 }
 
