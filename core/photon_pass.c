@@ -91,6 +91,13 @@ static pm_status append(pm_pass *pass, const pm_pass_worker *worker, uint32_t co
     return status;
 }
 
+/// Nothing more is wanted. Only one thread at a time comes here, but all of them ask.
+static void finish(pm_pass *pass)
+{
+#pragma omp atomic write
+    pass->done = true;
+}
+
 /// The chunk in which the wanted number is reached, photon by photon.
 static pm_status append_singly(pm_pass *pass, pm_pass_worker *worker, uint64_t first,
                                uint32_t count)
@@ -98,7 +105,9 @@ static pm_status append_singly(pm_pass *pass, pm_pass_worker *worker, uint64_t f
     for (uint32_t i = 0; i < count && !pass->done; i++) {
         PM_TRY(trace_range(pass, worker, first + i, 1));
         PM_TRY(append(pass, worker, 1));
-        pass->done = pass->map->count >= pass->settings->stored;
+        if (pass->map->count >= pass->settings->stored) {
+            finish(pass);
+        }
     }
     return PM_OK;
 }
@@ -117,8 +126,14 @@ static pm_status append_in_order(pm_pass *pass, pm_pass_worker *worker, uint64_t
 static void fail(pm_pass *pass, pm_status status)
 {
     pass->status = status;
-    pass->done = true;
+    finish(pass);
     strncpy(pass->message, pm_status_message(), sizeof pass->message - 1);
+}
+
+static bool tapped(const pm_pass *pass)
+{
+    const pm_trace_sink *tap = &pass->settings->tap;
+    return tap->deposit != NULL || tap->event != NULL;
 }
 
 static void run_chunk(pm_pass *pass, pm_pass_worker *worker, uint64_t chunk)
@@ -126,11 +141,13 @@ static void run_chunk(pm_pass *pass, pm_pass_worker *worker, uint64_t chunk)
     uint64_t first = chunk * CHUNK;
     uint64_t left = pass->emission.count - first;
     uint32_t count = left < CHUNK ? (uint32_t)left : CHUNK;
+    // A tap sees no photon twice and none beyond the last: such a pass goes singly throughout.
+    bool singly = pass->settings->stored != 0 && tapped(pass);
     bool skip;
 #pragma omp atomic read
     skip = pass->done;
     pm_status status = PM_OK;
-    if (!skip) {
+    if (!skip && !singly) {
         status = trace_range(pass, worker, first, count);
     }
 #pragma omp ordered
@@ -139,12 +156,16 @@ static void run_chunk(pm_pass *pass, pm_pass_worker *worker, uint64_t chunk)
             status = pm_status_fail(PM_ESTOPPED, "stopped by the user");
         }
         if (!pass->done && status == PM_OK) {
-            status = append_in_order(pass, worker, first, count);
+            status = singly ? append_singly(pass, worker, first, count)
+                            : append_in_order(pass, worker, first, count);
         }
         if (!pass->done && status != PM_OK) {
             fail(pass, status);
         }
         pm_progress_add(&pass->progress, count);
+    }
+    if (status != PM_OK) {
+        pm_status_clear(); // this thread's next pass tells its own
     }
 }
 
@@ -178,8 +199,7 @@ static void worker_free(pm_pass_worker *worker)
 static void run_chunks(pm_pass *pass)
 {
     int64_t chunks = (int64_t)((pass->emission.count + CHUNK - 1) / CHUNK);
-    bool tapped = pass->settings->tap.deposit != NULL || pass->settings->tap.event != NULL;
-#pragma omp parallel if (!tapped)
+#pragma omp parallel if (!tapped(pass))
     {
         pm_pass_worker *worker = NULL;
         pm_status made = worker_make(pass, &worker);
@@ -190,7 +210,7 @@ static void run_chunks(pm_pass *pass)
 #pragma omp barrier
 #pragma omp for ordered schedule(dynamic, 1)
         for (int64_t chunk = 0; chunk < chunks; chunk++) {
-            if (pass->status != PM_ENOMEM) {
+            if (worker != NULL) {
                 run_chunk(pass, worker, (uint64_t)chunk);
             }
         }
