@@ -164,7 +164,7 @@ static pm_status emit_by_type(const pm_scene *scene, const pm_light *light,
 pm_status pm_emit_ray(const pm_scene *scene, const pm_light *light,
                       const pm_projection *projection, pm_rng *rng, pm_ray *ray)
 {
-    pm_ray leaving = {.t_max = INFINITY, .medium = light->medium};
+    pm_ray leaving = {.t_max = HUGE_VAL, .medium = light->medium};
     PM_TRY(emit_by_type(scene, light, projection, rng, &leaving));
     *ray = leaving;
     return PM_OK;
