@@ -11,8 +11,8 @@ typedef struct {
 
 static bounds nowhere(void)
 {
-    return (bounds){pm_vec(INFINITY, INFINITY, INFINITY),
-                    pm_vec(-INFINITY, -INFINITY, -INFINITY)};
+    return (bounds){pm_vec(HUGE_VAL, HUGE_VAL, HUGE_VAL),
+                    pm_vec(-HUGE_VAL, -HUGE_VAL, -HUGE_VAL)};
 }
 
 static void cover(bounds *b, pm_vec3 point)

@@ -124,7 +124,8 @@ static int namesakes(const pm_scene_file *source, const pm_xml *object, const ch
 const char *pm_scene_file_name(pm_scene_file *source, const pm_xml *object)
 {
     const char *id = id_of(object);
-    const char *type = pm_xml_attribute(object, "type");
+    const char *given = pm_xml_attribute(object, "type");
+    const char *type = given == NULL ? object->tag : given;
     char *name;
     if (id != NULL) {
         name = pm_arena_copy(source->arena, id, strlen(id));

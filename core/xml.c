@@ -288,24 +288,33 @@ static void report_unreadable(const layer *file, const char *why)
     }
 }
 
-static FILE *open_file(layer *file)
+/// Why an opened file is not to be read, or NULL.
+static const char *judge(layer *file, FILE *stream)
 {
-    FILE *stream = fopen(file->path, "rb");
     struct stat about;
-    if (stream == NULL || fstat(fileno(stream), &about) != 0) {
-        char why[120];
-        snprintf(why, sizeof why, "cannot be read: %s", strerror(errno));
-        report_unreadable(file, why);
-        return stream == NULL ? NULL : (fclose(stream), NULL);
+    if (fstat(fileno(stream), &about) != 0) {
+        return "cannot be read";
     }
     file->device = about.st_dev;
     file->node = about.st_ino;
-    const char *why = S_ISDIR(about.st_mode) ? "is a folder, not a scene file" : NULL;
     for (const layer *l = file->outer; l != NULL; l = l->outer) {
         if (l->device == file->device && l->node == file->node) {
-            why = "includes itself";
+            return "includes itself";
         }
     }
+    return S_ISDIR(about.st_mode) ? "is a folder, not a scene file" : NULL;
+}
+
+static FILE *open_file(layer *file)
+{
+    FILE *stream = fopen(file->path, "rb");
+    if (stream == NULL) {
+        char why[120];
+        snprintf(why, sizeof why, "cannot be read: %s", strerror(errno));
+        report_unreadable(file, why);
+        return NULL;
+    }
+    const char *why = judge(file, stream);
     if (why != NULL) {
         report_unreadable(file, why);
         fclose(stream);

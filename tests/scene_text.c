@@ -49,6 +49,6 @@ int pm_scene_text_first(const pm_scene *scene, const pm_ray *ray)
 
 pm_vec3 pm_scene_text_normal(const pm_scene *scene, pm_vec3 origin, pm_vec3 direction)
 {
-    pm_ray ray = {pm_vec_sub(origin, scene->center), direction, INFINITY, 0.0, PM_NONE};
+    pm_ray ray = {pm_vec_sub(origin, scene->center), direction, HUGE_VAL, 0.0, PM_NONE};
     return meet(scene, &ray).normal;
 }
