@@ -309,4 +309,5 @@ PM_TESTS(
      claims_beyond_the_file_are_refused},
     {"exr.8", "a missing, empty or wrong file is refused by name",
      what_is_no_picture_is_refused},
-    {"exr.9", "no room leaves no picture and no temporary file", no_room_leaves_no_picture})
+    {"exr.9", "no room leaves no picture and no temporary file", no_room_leaves_no_picture},
+    {"exr.10", "a file whose writer died is refused", unfinished_files_are_refused})
