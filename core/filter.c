@@ -7,11 +7,13 @@
 // @source Jensen 2001, ch. 7; the Gaussian's factor: Garcia et al., TVCG 2014
 #include "filter.h"
 
+#include <stdbool.h>
+
 #define GAUSSIAN_BETA 1.953
 #define GAUSSIAN_ALPHA_LECTURE 0.918
 
-// How many steps one way count as a trend.
-#define TREND 8
+// Standard errors by which an estimate may drift by chance.
+#define DRIFT 3.0
 
 static pm_status check_kind(pm_filter_kind kind)
 {
@@ -87,24 +89,45 @@ static pm_status check_sorted(const double *distance2, const double *power, uint
     return PM_OK;
 }
 
-/// Grows the disc from `least` photons on; the last photon of a set only sets its radius.
+/// A disc that grows: of `count` photons the last only sets its size, d^2.
+typedef struct {
+    uint32_t count;
+    double power, power2; // sums over the others of power and of its square
+    double distance2;
+} disc;
+
+static void grow(disc *d, const double *distance2, const double *power)
+{
+    double joins = d->count > 0 ? power[d->count - 1] : 0.0;
+    d->power += joins;
+    d->power2 += joins * joins;
+    d->distance2 = distance2[d->count];
+    d->count++;
+}
+
+/// Whether the density of `whole` differs from that of its inner half by more than chance: the
+/// relative standard error of a sum of n powers is root(sum of squares) / sum.
+static bool has_drifted(const disc *half, const disc *whole)
+{
+    double inner = half->power * whole->distance2; // densities, both times the two areas
+    double outer = whole->power * half->distance2;
+    return fabs(inner - outer) * whole->power > DRIFT * sqrt(whole->power2) * inner;
+}
+
 static uint32_t keep(const double *distance2, const double *power, uint32_t count,
                      uint32_t least)
 {
-    double inside = 0.0; // power of photons 0 .. n - 2, in units in which the area is d^2
-    double before = 0.0;
-    int trend = 0; // steps up in a row, or minus those down
-    for (uint32_t n = 1; n <= count; n++) {
-        double density = distance2[n - 1] > 0.0 ? inside / distance2[n - 1] : HUGE_VAL;
-        inside += power[n - 1];
-        if (n > least) {
-            int step = (density > before) - (density < before);
-            trend = step * trend > 0 ? trend + step : step;
-            if (trend == TREND || trend == -TREND) {
-                return n - TREND;
-            }
+    disc half = {0};
+    disc whole = {0};
+    while (whole.count < count) {
+        grow(&whole, distance2, power);
+        if (half.count < whole.count / 2) {
+            grow(&half, distance2, power);
         }
-        before = density;
+        bool comparable = half.count >= least && half.count > 1 && half.distance2 > 0.0;
+        if (comparable && has_drifted(&half, &whole)) {
+            return half.count;
+        }
     }
     return count;
 }

@@ -34,11 +34,14 @@ pm_status pm_filter_normalisation(pm_filter_kind kind, pm_filter_constants const
                                   double *normalisation);
 
 /// Differential checking: how many of `count` photons to keep, sorted by distance, so that the
-/// estimate stays on one side of an edge. Grows the disc photon by photon from `least` and
-/// stops where the running estimate keeps rising or keeps falling.
+/// estimate stays on one side of an edge. Grows the disc photon by photon; when its estimate
+/// has drifted from that of its inner half by three standard errors, the inner half is kept.
+///
+/// On a flat field it keeps 95 of 100 photons and doubles the noise: an edge is seen only as
+/// clearly as k photons can show it, so it pays for k of some hundreds.
 ///
 /// @param kept  [out] between min(least, count) and count
-/// @source Jensen 2001, ch. 7
+/// @source Jensen 2001, ch. 7, for the idea
 pm_status pm_filter_differential(const double *distance2, const double *power, uint32_t count,
                                  uint32_t least, uint32_t *kept);
 
