@@ -283,6 +283,7 @@ static void bad_data_is_refused(void)
         {"paths", PATHS "0,1,D,5,5,5,1,1\n", "x.csv:3: a row has 9 fields, got 8"},
         {"paths", PATHS "0,1,D,5,5,5,1,1,1x\n", "x.csv:3: b must be a finite number"},
         {"paths", PATHS "0,1,D,nan,5,5,1,1,1\n", "x.csv:3: x must be a finite number"},
+        {"paths", PATHS "0,1,D,5,500,5,1,1,1\n", "x.csv:3: the point 5,500,5 lies far outside"},
         {"paths", PATHS "0,1,D,5,5,5,-1,1,1\n", "x.csv:3: r must be >= 0"},
         {"paths", PATHS "0,1,Q,5,5,5,1,1,1\n", "x.csv:3: event must be one of"},
         {"paths", PATHS "0,2,D,5,5,5,1,1,1\n", "x.csv:3: photon 0 step 2 does not follow"},
@@ -325,15 +326,15 @@ static void bad_usage_is_refused(void)
 static void photons_of_another_scene_are_refused(void)
 {
     const char *map = write_map("other.ply", tall, 5, pm_gray(1.0), true);
-    char *scene = strdup(scene_text);
-    memcpy(strstr(scene, "1, 1, 1"), "1, 1, 2", 7);
+    char scene[sizeof scene_text];
+    memcpy(scene, scene_text, sizeof scene);
+    strstr(scene, "1, 1, 1")[6] = '2';
     const char *argv[] = {pm_test_program("view"),          "photons", map,           "--scene",
                           write_text("changed.xml", scene), "-o",      at("out.png"), NULL};
     pm_test_ran ran = pm_test_run(argv, 60.0);
     CHECK(ran.exit_code == 2);
     CHECK_CONTAINS(ran.err, "other.ply: these photons were traced in another scene");
     pm_test_ran_free(&ran);
-    free(scene);
 }
 
 static void no_display_is_needed(void)

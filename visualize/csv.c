@@ -14,18 +14,17 @@
 /// many.
 static int split(char *text, char **field)
 {
-    int count = 0;
-    for (char *at = text; at != NULL;) {
-        if (count == PM_CSV_COLUMNS_MAX) {
-            return PM_CSV_COLUMNS_MAX + 1;
+    char *at = text;
+    for (int count = 1; count <= PM_CSV_COLUMNS_MAX; count++) {
+        field[count - 1] = at;
+        char *comma = strchr(at, ',');
+        if (comma == NULL) {
+            return count;
         }
-        field[count++] = at;
-        at = strchr(at, ',');
-        if (at != NULL) {
-            *at++ = '\0';
-        }
+        *comma = '\0';
+        at = comma + 1;
     }
-    return count;
+    return PM_CSV_COLUMNS_MAX + 1;
 }
 
 /// The next line into `csv->text`, without its end.

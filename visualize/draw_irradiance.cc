@@ -27,7 +27,7 @@ struct value_range {
 
 value_range measure(const pm_grid *grid)
 {
-    value_range r = {INFINITY, 0.0, false, false};
+    value_range r = {HUGE_VAL, 0.0, false, false};
     for (uint64_t i = 0; i < grid->columns * grid->rows; i++) {
         double y = pm_spectrum_luminance(grid->points[i].irradiance);
         if (y > 0.0) {

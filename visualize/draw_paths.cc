@@ -25,28 +25,29 @@ const event_look looks[] = {
     {'C', PM_COLOUR_VERMILLION, "cut: too many bounces"},
 };
 
-const event_look &look_of(char event)
-{
-    for (const event_look &l : looks) {
-        if (l.event == event) {
-            return l;
-        }
-    }
-    return looks[0];
-}
+const size_t look_count = sizeof looks / sizeof looks[0];
 
-/// How often each event occurs in what is drawn, by its letter.
-typedef uint64_t event_counts[128];
+/// How often each event occurs in what is drawn, in the order of `looks`.
+typedef uint64_t event_counts[look_count];
+
+size_t find_look(char event)
+{
+    size_t i = 0;
+    while (i + 1 < look_count && looks[i].event != event) {
+        i++;
+    }
+    return i;
+}
 
 pm_status add_legend(pm_figure *figure, const event_counts &counts)
 {
     std::vector<std::string> texts;
-    for (const event_look &l : looks) {
-        texts.push_back(l.text + (": " + std::to_string(counts[static_cast<int>(l.event)])));
+    for (size_t i = 0; i < look_count; i++) {
+        texts.push_back(looks[i].text + (": " + std::to_string(counts[i])));
     }
     std::vector<pm_legend_entry> entries;
-    for (size_t i = 0; i < texts.size(); i++) {
-        if (counts[static_cast<int>(looks[i].event)] > 0) {
+    for (size_t i = 0; i < look_count; i++) {
+        if (counts[i] > 0) {
             entries.push_back({looks[i].event == 'E' ? PM_SWATCH_NONE : PM_SWATCH_DOT,
                                pm_colour_named(looks[i].colour), texts[i].c_str()});
         }
@@ -64,8 +65,9 @@ void add_path(const pm_path_vertex *path, uint64_t count, pm_drawing *lines, pm_
               event_counts *counts)
 {
     for (uint64_t i = 0; i < count; i++) {
-        pm_colour colour = pm_colour_named(look_of(path[i].event).colour);
-        (*counts)[static_cast<int>(path[i].event)]++;
+        size_t look = find_look(path[i].event);
+        pm_colour colour = pm_colour_named(looks[look].colour);
+        (*counts)[look]++;
         if (i + 1 < count && path[i + 1].event == 'E') {
             lines->fading_line(path[i].position, path[i + 1].position, colour, path_opacity);
         } else if (i + 1 < count) {

@@ -6,6 +6,7 @@
 #include "figure.hh"
 
 extern "C" {
+#include "interrupt.h"
 #include "png.h"
 }
 
@@ -35,7 +36,7 @@ namespace {
 class Listener : public vtkOutputWindow {
   public:
     static Listener *New();
-    void DisplayText(const char *) override
+    void DisplayText(const char * /*text*/) override
     {
     }
     void DisplayErrorText(const char *text) override
@@ -44,7 +45,17 @@ class Listener : public vtkOutputWindow {
             first = text;
         }
     }
+    void forget()
+    {
+        first.clear();
+    }
+    /// First line of the first error; empty when there was none.
+    std::string fault() const
+    {
+        return first.substr(0, first.find('\n'));
+    }
 
+  private:
     std::string first;
 };
 
@@ -128,7 +139,7 @@ pm_status pm_figure_open(const pm_viewpoint *viewpoint, pm_figure **figure)
 {
     return pm_figure_guard("a figure", [&] {
         PM_TRY(check_size(viewpoint));
-        listen()->first.clear();
+        listen()->forget();
         vtkSmartPointer<vtkRenderWindow> window;
         PM_TRY(pm_window_open(viewpoint->width, viewpoint->height, &window));
         window->SetMultiSamples(8);
@@ -152,11 +163,11 @@ pm_status pm_figure_write(pm_figure *figure, const char *path)
         figure->window->Render();
         const pm_viewpoint &v = figure->viewpoint;
         std::vector<uint8_t> pixels = read_pixels(figure->window, v.width, v.height);
-        const std::string &fault = listen()->first;
+        std::string fault = listen()->fault();
         if (!fault.empty()) {
-            return PM_FAIL(PM_ELIMIT, "VTK cannot draw this: %.200s",
-                           fault.substr(0, fault.find('\n')).c_str());
+            return PM_FAIL(PM_ELIMIT, "VTK cannot draw this: %.200s", fault.c_str());
         }
+        PM_TRY(pm_interrupt_check());
         return pm_png_write_bytes(path, pixels.data(), v.width, v.height);
     });
 }

@@ -18,38 +18,46 @@ typedef struct {
     bool ended;
 } reader;
 
-/// Room for one element more in an array of `*room`, doubling it.
-static pm_status grow(void **array, uint64_t count, uint64_t *room, size_t size)
+/// The array with room for one element more, doubled when it is full; NULL without memory.
+static void *grow(void *array, uint64_t count, uint64_t *room, size_t size)
 {
     if (count < *room) {
-        return PM_OK;
+        return array;
     }
     uint64_t wanted = *room == 0 ? 1024 : *room * 2;
-    void *bigger = wanted <= SIZE_MAX / size ? realloc(*array, (size_t)wanted * size) : NULL;
-    if (bigger == NULL) {
-        return PM_FAIL(PM_ENOMEM, "no memory for %llu path vertices",
-                       (unsigned long long)wanted);
-    }
-    *array = bigger;
-    *room = wanted;
-    return PM_OK;
+    void *bigger = wanted <= SIZE_MAX / size ? realloc(array, (size_t)wanted * size) : NULL;
+    *room = bigger != NULL ? wanted : *room;
+    return bigger;
 }
 
+static pm_status no_room(const reader *to)
+{
+    return PM_FAIL(PM_ENOMEM, "no memory for %llu path vertices",
+                   (unsigned long long)to->vertex_count + 1);
+}
+
+/// Begins a path; room for the entry behind the last is kept, too.
 static pm_status add_path(reader *to)
 {
-    void *array = to->set.first;
-    PM_TRY(grow(&array, to->set.path_count + 1, &to->path_room, sizeof *to->set.first));
-    to->set.first = array;
-    to->set.first[to->set.path_count++] = to->vertex_count;
+    uint64_t *first =
+        grow(to->set.first, to->set.path_count + 1, &to->path_room, sizeof *first);
+    if (first == NULL) {
+        return no_room(to);
+    }
+    to->set.first = first;
+    first[to->set.path_count++] = to->vertex_count;
     return PM_OK;
 }
 
 static pm_status add_vertex(reader *to, pm_path_vertex vertex)
 {
-    void *array = to->set.vertices;
-    PM_TRY(grow(&array, to->vertex_count, &to->vertex_room, sizeof *to->set.vertices));
-    to->set.vertices = array;
-    to->set.vertices[to->vertex_count++] = vertex;
+    pm_path_vertex *vertices =
+        grow(to->set.vertices, to->vertex_count, &to->vertex_room, sizeof *vertices);
+    if (vertices == NULL) {
+        return no_room(to);
+    }
+    to->set.vertices = vertices;
+    vertices[to->vertex_count++] = vertex;
     return PM_OK;
 }
 

@@ -20,8 +20,11 @@ static int compare(const void *a, const void *b)
 
 static double find_full_power(const pm_photon_cloud *cloud)
 {
-    double sample[SAMPLES];
-    uint32_t count = cloud->count < SAMPLES ? cloud->count : SAMPLES;
+    double sample[SAMPLES] = {0};
+    uint32_t count = SAMPLES;
+    if (cloud->count < count) {
+        count = cloud->count;
+    }
     for (uint32_t i = 0; i < count; i++) {
         const float *power = cloud->power[(uint64_t)i * cloud->count / count];
         sample[i] =

@@ -55,10 +55,11 @@ static pm_status split_cell(const pm_photon_map *map, const char *where, uint32_
     }
     split->axis = axis;
     cut(c, axis, photon->position[axis], split->corner);
-    cells[2 * node] = *c;
-    cells[2 * node].high[axis] = photon->position[axis];
-    cells[2 * node + 1] = *c;
-    cells[2 * node + 1].low[axis] = photon->position[axis];
+    cell *left = &cells[(size_t)node * 2];
+    left[0] = *c;
+    left[1] = *c;
+    left[0].high[axis] = photon->position[axis];
+    left[1].low[axis] = photon->position[axis];
     return PM_OK;
 }
 

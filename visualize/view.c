@@ -8,7 +8,6 @@
 #include "draw.h"
 #include "figure.h"
 #include "grid_file.h"
-#include "interrupt.h"
 #include "path_file.h"
 #include "photon_cloud.h"
 #include "photon_file.h"
@@ -278,7 +277,6 @@ static pm_status make(picture *p, const kind *k)
     PM_TRY(k->draw(p));
     const char *title = p->options->title != NULL ? p->options->title : k->title;
     PM_TRY(pm_figure_title(p->figure, title, p->note));
-    PM_TRY(pm_interrupt_check());
     PM_TRY(pm_figure_write(p->figure, p->options->output));
     return p->options->json ? print_json(p, &viewpoint) : PM_OK;
 }

@@ -30,7 +30,7 @@ static pm_vec3 corner(const pm_scene *scene, int index)
 /// False when a corner of the bounds is behind the camera or far outside of a usable picture.
 static bool measure(const pm_viewpoint *v, const pm_scene *scene, extent *out)
 {
-    *out = (extent){{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+    *out = (extent){{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
     for (int i = 0; i < 8; i++) {
         pm_vec3 at = local(v, corner(scene, i));
         if (!(at.z > 0.0)) {

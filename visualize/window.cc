@@ -16,7 +16,7 @@
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkObjectFactory.h>
 
-extern "C" unsigned glewInit(void);
+extern "C" unsigned glewInit(); // NOLINT(readability-identifier-naming): GLEW's
 
 namespace {
 
@@ -30,7 +30,7 @@ class EglWindow : public vtkGenericOpenGLRenderWindow {
     EglWindow &operator=(const EglWindow &) = delete;
 
     /// Makes a context and makes it current.
-    bool Begin();
+    bool begin();
     void OpenGLInitContext() override;
 
   protected:
@@ -61,7 +61,7 @@ EGLDisplay open_display()
     return ready ? display : EGL_NO_DISPLAY;
 }
 
-bool EglWindow::Begin()
+bool EglWindow::begin()
 {
     display = open_display();
     if (display == EGL_NO_DISPLAY) {
@@ -104,20 +104,18 @@ void EglWindow::OpenGLInitContext()
 
 EglWindow::~EglWindow()
 {
+    // The display is the process's, shared by all windows: it stays open.
     if (context != EGL_NO_CONTEXT) {
         Finalize();
         eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
         eglDestroyContext(display, context);
-    }
-    if (display != EGL_NO_DISPLAY) {
-        eglTerminate(display);
     }
 }
 
 vtkSmartPointer<vtkRenderWindow> open_without_display()
 {
     auto window = vtkSmartPointer<EglWindow>::New();
-    return window->Begin() ? vtkSmartPointer<vtkRenderWindow>(window) : nullptr;
+    return window->begin() ? vtkSmartPointer<vtkRenderWindow>(window) : nullptr;
 }
 
 } // namespace
