@@ -7,10 +7,10 @@
 
 /// What the scene has, by the first example of each.
 typedef struct {
-    const char *diffuse;  // shape that scatters diffusely
-    const char *specular; // shape with a mirror or glass on it
-    const char *light;    // light with power
-    bool bounces;         // some diffuse albedo is above 0
+    const char *diffuse;    // shape that scatters diffusely, a black one too
+    const char *reflecting; // diffuse shape of an albedo above 0
+    const char *specular;   // shape with a mirror or glass on it
+    const char *light;      // light with power
     int powered;
 } pm_contents;
 
@@ -30,8 +30,10 @@ static void look_at_side(const pm_scene *scene, const pm_shape *shape, int side,
     if (specular && contents->specular == NULL) {
         contents->specular = shape->id;
     }
-    contents->bounces =
-        contents->bounces || (diffuse && !pm_spectrum_is_black(material->reflectance));
+    bool reflecting = diffuse && !pm_spectrum_is_black(material->reflectance);
+    if (reflecting && contents->reflecting == NULL) {
+        contents->reflecting = shape->id;
+    }
 }
 
 static pm_contents look_around(const pm_scene *scene)
@@ -86,9 +88,9 @@ static void plan_surfaces(pm_plan *plan, const pm_contents *has)
                has->specular == NULL ? "no mirror and no glass"
                                      : "nothing diffuse to catch it");
     }
-    if (has->bounces) {
+    if (has->reflecting != NULL) {
         decide(plan, PM_PLAN_INDIRECT, true, "diffuse surfaces such as %s pass light on",
-               has->diffuse);
+               has->reflecting);
     } else {
         decide(plan, PM_PLAN_INDIRECT, false, "no diffuse surface reflects");
     }
