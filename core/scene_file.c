@@ -51,8 +51,64 @@ static void gather_named(pm_scene_file *source)
     }
 }
 
+static bool is_nameless(const pm_xml *element)
+{
+    return id_of(element) == NULL && pm_xml_attribute(element, "type") != NULL;
+}
+
+/// By type, line and place in the document, which stands in `index` meanwhile.
+static int by_type_and_line(const void *a, const void *b)
+{
+    const pm_xml *const *first = a;
+    const pm_xml *const *second = b;
+    int type = strcmp(pm_xml_attribute(*first, "type"), pm_xml_attribute(*second, "type"));
+    if (type != 0) {
+        return type;
+    }
+    int line = ((*first)->line > (*second)->line) - ((*first)->line < (*second)->line);
+    return line != 0 ? line : (*first)->index - (*second)->index;
+}
+
+/// Numbers the objects that would be called alike.
+static void number_twins(pm_xml **objects, int count)
+{
+    qsort(objects, (size_t)count, sizeof *objects, by_type_and_line);
+    for (int i = 1; i < count; i++) {
+        const pm_xml *before = objects[i - 1];
+        bool alike =
+            objects[i]->line == before->line &&
+            strcmp(pm_xml_attribute(objects[i], "type"), pm_xml_attribute(before, "type")) == 0;
+        objects[i]->twin = alike ? before->twin + 1 : 0;
+    }
+    for (int i = 0; i < count; i++) {
+        objects[i]->index = PM_NONE;
+    }
+}
+
+static void find_twins(pm_scene_file *source)
+{
+    int count = 0;
+    for (pm_xml *e = source->root; e != NULL; e = pm_xml_following(source->root, e)) {
+        count += is_nameless(e);
+    }
+    pm_xml **objects = pm_arena_take(&source->tree, (size_t)count, sizeof(pm_xml *));
+    if (objects == NULL) {
+        pm_faults_fail(&source->faults, PM_ENOMEM);
+        return;
+    }
+    count = 0;
+    for (pm_xml *e = source->root; e != NULL; e = pm_xml_following(source->root, e)) {
+        if (is_nameless(e)) {
+            e->index = count;
+            objects[count++] = e;
+        }
+    }
+    number_twins(objects, count);
+}
+
 void pm_scene_file_collect_ids(pm_scene_file *source)
 {
+    find_twins(source);
     gather_named(source);
     source->named = pm_arena_take(&source->tree, (size_t)source->named_count, sizeof(pm_xml *));
     source->named_count = 0;
@@ -107,18 +163,6 @@ pm_xml *pm_scene_file_resolve(pm_scene_file *source, const pm_xml *ref)
     }
     report_unknown_id(source, ref, id);
     return NULL;
-}
-
-/// How many earlier objects have no id, the same type and the same line number.
-static int namesakes(const pm_scene_file *source, const pm_xml *object, const char *type)
-{
-    int count = 0;
-    for (pm_xml *e = source->root; e != object; e = pm_xml_following(source->root, e)) {
-        const char *other = pm_xml_attribute(e, "type");
-        count += e->line == object->line && id_of(e) == NULL && other != NULL &&
-                 strcmp(other, type) == 0;
-    }
-    return count;
 }
 
 const char *pm_scene_file_name(pm_scene_file *source, const pm_xml *object)

@@ -35,7 +35,8 @@ void *pm_scene_file_take(pm_scene_file *source, size_t count, size_t size);
 /// How many elements of this tag there are.
 int pm_scene_file_count(const pm_scene_file *source, const char *tag);
 
-/// Finds every id; two objects of the same id are a fault.
+/// Finds every id, and numbers the objects that are called TYPE@LINE alike. Two objects of the
+/// same id are a fault.
 void pm_scene_file_collect_ids(pm_scene_file *source);
 
 /// The object that <ref> means, or NULL after a fault.

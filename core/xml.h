@@ -22,6 +22,7 @@ typedef struct pm_xml {
     struct pm_xml *child, *last; // first and last inside it
     struct pm_xml *next;         // behind it, in the same parent
     int index;                   // the reader's; PM_NONE at first
+    int twin;                    // the reader's: earlier objects that would be called alike
 } pm_xml;
 
 /// What stands for an attribute's value when that has been reported as a fault already. Compare
