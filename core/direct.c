@@ -16,7 +16,7 @@ typedef struct {
 static pm_spectrum response(const pm_receiver *at, pm_vec3 direction)
 {
     double cosine = pm_vec_dot(direction, at->lobes->normal);
-    return pm_spectrum_scale(pm_material_evaluate(at->lobes, direction), fmax(0.0, cosine));
+    return pm_spectrum_scale(pm_material_evaluate(at->lobes, direction), pm_most(0.0, cosine));
 }
 
 /// Whether something stands between the receiver and the point `target` off the light.

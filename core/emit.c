@@ -97,7 +97,7 @@ pm_status pm_emit_cell(const pm_projection *projection, pm_rng *rng, double u[2]
 static pm_vec3 sphere_direction(const double u[2])
 {
     double z = 1.0 - 2.0 * u[0];
-    double radius = sqrt(fmax(0.0, 1.0 - z * z));
+    double radius = sqrt(pm_most(0.0, 1.0 - z * z));
     double phi = 2.0 * PM_PI * u[1];
     return pm_vec(radius * cos(phi), radius * sin(phi), z);
 }

@@ -36,7 +36,7 @@ static double conductor_reflectance(double cos_i, double eta, double k)
     double t0 = (eta - 1.0) * (eta + 1.0) - square(k) + cos2; // eta^2 - k^2 - sin^2
     double a2_plus_b2 = sqrt(square(t0) + 4.0 * square(eta) * square(k));
     double t1 = a2_plus_b2 + cos2;
-    double t2 = 2.0 * cos_i * sqrt(fmax(0.0, 0.5 * (a2_plus_b2 + t0)));
+    double t2 = 2.0 * cos_i * sqrt(pm_most(0.0, 0.5 * (a2_plus_b2 + t0)));
     if (t1 + t2 == 0.0) { // index 1, exactly grazing
         return 0.0;
     }

@@ -11,16 +11,6 @@
 #define EDGE_MARGIN 4.0
 
 // Inlined by every compiler, unlike fmax() and fmin(), which took a fifth of a query's time.
-static double larger(double a, double b)
-{
-    return a > b ? a : b;
-}
-
-static double smaller(double a, double b)
-{
-    return a < b ? a : b;
-}
-
 uint32_t pm_shape_primitives(const pm_shape *shape)
 {
     return shape->type == PM_SHAPE_MESH ? shape->triangle_count : 1;
@@ -67,9 +57,9 @@ static pm_box mesh_box(const pm_shape *shape, uint32_t primitive)
 /// Half the box of a circle about the unit `axis`.
 static pm_vec3 circle_extent(pm_vec3 axis, double radius)
 {
-    return pm_vec(radius * sqrt(larger(0.0, 1.0 - axis.x * axis.x)),
-                  radius * sqrt(larger(0.0, 1.0 - axis.y * axis.y)),
-                  radius * sqrt(larger(0.0, 1.0 - axis.z * axis.z)));
+    return pm_vec(radius * sqrt(pm_most(0.0, 1.0 - axis.x * axis.x)),
+                  radius * sqrt(pm_most(0.0, 1.0 - axis.y * axis.y)),
+                  radius * sqrt(pm_most(0.0, 1.0 - axis.z * axis.z)));
 }
 
 /// The box of what lies within `extent` of the segment from the shape's centre to `end`.
@@ -107,14 +97,14 @@ static void place(const pm_shape *shape, pm_vec3 position, pm_vec3 normal, doubl
     hit->position = position;
     hit->inner = position;
     hit->normal = shape->flipped ? pm_vec_negate(normal) : normal;
-    hit->offset = PM_OFFSET * larger(reach, pm_vec_reach(position));
+    hit->offset = PM_OFFSET * pm_most(reach, pm_vec_reach(position));
 }
 
 /// `at` moved to `margin` from both ends of [0, length]; to the middle when there is no room.
 static double draw_in(double at, double margin, double length)
 {
-    double least = smaller(margin, 0.5 * length);
-    return smaller(larger(at, least), length - least);
+    double least = pm_least(margin, 0.5 * length);
+    return pm_least(pm_most(at, least), length - least);
 }
 
 static void place_on_rectangle(const pm_shape *shape, double u, double v, pm_hit *hit)
@@ -143,7 +133,7 @@ static void place_on_disk(const pm_shape *shape, pm_vec3 outward, pm_hit *hit)
 {
     place(shape, pm_vec_add(shape->center, outward), shape->axis, shape->reach, hit);
     double length = pm_vec_length(outward);
-    double limit = larger(0.0, shape->radius - EDGE_MARGIN * hit->offset);
+    double limit = pm_most(0.0, shape->radius - EDGE_MARGIN * hit->offset);
     if (length > limit) {
         hit->inner = pm_vec_along(shape->center, outward, limit / length);
     }
@@ -178,7 +168,7 @@ static triangle triangle_of(const pm_shape *shape, uint32_t primitive)
     pm_vec3 normal = pm_vec_cross(face.edge1, face.edge2);
     face.area2 = pm_vec_length(normal);
     face.normal = pm_vec_scale(normal, 1.0 / face.area2);
-    face.reach = larger(pm_vec_reach(v0), larger(pm_vec_reach(v1), pm_vec_reach(v2)));
+    face.reach = pm_most(pm_vec_reach(v0), pm_most(pm_vec_reach(v1), pm_vec_reach(v2)));
     return face;
 }
 
@@ -207,7 +197,7 @@ static void place_on_triangle(const pm_shape *shape, const triangle *face, doubl
     double pull0 = pull(1.0 - b1 - b2, far_edge, face->area2, margin);
     double pull1 = pull(b1, pm_vec_length(face->edge2), face->area2, margin);
     double pull2 = pull(b2, pm_vec_length(face->edge1), face->area2, margin);
-    double most = larger(pull0, larger(pull1, pull2));
+    double most = pm_most(pull0, pm_most(pull1, pull2));
     if (most > 0.0) {
         double b1_in = b1 + (1.0 / 3.0 - b1) * most;
         double b2_in = b2 + (1.0 / 3.0 - b2) * most;
@@ -217,7 +207,7 @@ static void place_on_triangle(const pm_shape *shape, const triangle *face, doubl
 
 static double clamp(double x, double high)
 {
-    return smaller(larger(x, 0.0), high);
+    return pm_least(pm_most(x, 0.0), high);
 }
 
 static void complete_rectangle(const pm_shape *shape, pm_vec3 near, pm_hit *hit)

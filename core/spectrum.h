@@ -42,7 +42,8 @@ static inline pm_spectrum pm_spectrum_scale(pm_spectrum a, double f)
 
 static inline double pm_spectrum_max(pm_spectrum a)
 {
-    return fmax(a.c[0], fmax(a.c[1], a.c[2]));
+    double two = a.c[0] > a.c[1] ? a.c[0] : a.c[1];
+    return two > a.c[2] ? two : a.c[2];
 }
 
 static inline double pm_spectrum_mean(pm_spectrum a)

@@ -17,6 +17,17 @@ typedef struct {
     pm_vec3 s, t, n;
 } pm_frame;
 
+/// Minimum and maximum by one comparison; gcc calls fmin() and fmax() through libm.
+static inline double pm_least(double a, double b)
+{
+    return a < b ? a : b;
+}
+
+static inline double pm_most(double a, double b)
+{
+    return a > b ? a : b;
+}
+
 static inline pm_vec3 pm_vec(double x, double y, double z)
 {
     return (pm_vec3){x, y, z};
@@ -72,7 +83,7 @@ static inline pm_vec3 pm_vec_normalize(pm_vec3 a)
 /// Largest of |x|, |y|, |z|.
 static inline double pm_vec_reach(pm_vec3 a)
 {
-    return fmax(fabs(a.x), fmax(fabs(a.y), fabs(a.z)));
+    return pm_most(fabs(a.x), pm_most(fabs(a.y), fabs(a.z)));
 }
 
 static inline double pm_vec_axis(pm_vec3 a, int axis)
@@ -83,12 +94,12 @@ static inline double pm_vec_axis(pm_vec3 a, int axis)
 /// Componentwise minimum and maximum, for bounding boxes.
 static inline pm_vec3 pm_vec_min(pm_vec3 a, pm_vec3 b)
 {
-    return (pm_vec3){fmin(a.x, b.x), fmin(a.y, b.y), fmin(a.z, b.z)};
+    return (pm_vec3){pm_least(a.x, b.x), pm_least(a.y, b.y), pm_least(a.z, b.z)};
 }
 
 static inline pm_vec3 pm_vec_max(pm_vec3 a, pm_vec3 b)
 {
-    return (pm_vec3){fmax(a.x, b.x), fmax(a.y, b.y), fmax(a.z, b.z)};
+    return (pm_vec3){pm_most(a.x, b.x), pm_most(a.y, b.y), pm_most(a.z, b.z)};
 }
 
 /// The mirror image of `wi` about the unit normal `n`; both point away from the surface.
