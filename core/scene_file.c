@@ -174,10 +174,9 @@ const char *pm_scene_file_name(pm_scene_file *source, const pm_xml *object)
     if (id != NULL) {
         name = pm_arena_copy(source->arena, id, strlen(id));
     } else {
-        int before = namesakes(source, object, type);
-        name = before == 0
-                   ? pm_arena_print(source->arena, "%s@%d", type, object->line)
-                   : pm_arena_print(source->arena, "%s@%d#%d", type, object->line, before + 1);
+        name = object->twin == 0 ? pm_arena_print(source->arena, "%s@%d", type, object->line)
+                                 : pm_arena_print(source->arena, "%s@%d#%d", type, object->line,
+                                                  object->twin + 1);
     }
     if (name == NULL) {
         pm_faults_fail(&source->faults, PM_ENOMEM);
