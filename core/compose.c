@@ -156,7 +156,7 @@ static pm_status follow(const pm_compose *compose, pm_path path, pm_vertex at, u
         note_first(&at, &path, eye);
         eye->emitter = eye->emitter || emits_towards(compose->world->scene, &at);
         PM_TRY(ask_all(compose, &at, &path, eye));
-        if (!compose->wanted[PM_LAYER_SPECULAR] || !may_turn(compose, &path, &at, &eye->cut)) {
+        if (!may_turn(compose, &path, &at, &eye->cut)) {
             return PM_OK;
         }
         pm_rng rng = pm_rng_at(&compose->source, index, at.vertex);
