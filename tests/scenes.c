@@ -146,7 +146,7 @@ int pm_scenes_sun(pm_scenes *s, pm_vec3 direction, pm_spectrum irradiance)
 
 static void measure(pm_scene *scene)
 {
-    scene->low = pm_vec(INFINITY, INFINITY, INFINITY);
+    scene->low = pm_vec(HUGE_VAL, HUGE_VAL, HUGE_VAL);
     scene->high = pm_vec_negate(scene->low);
     for (int i = 0; i < scene->shape_count; i++) {
         uint32_t count = pm_shape_primitives(&scene->shapes[i]);

@@ -160,7 +160,7 @@ static void gaps_are_told(void)
     pm_audit_clear(&audit);
 
     send(&audit, white);
-    end(&audit, PM_EVENT_ESCAPED, 0, pm_rgb(1.0, 1.0, NAN));
+    end(&audit, PM_EVENT_ESCAPED, 0, pm_rgb(1.0, 1.0, nan("")));
     CHECK_FAILS(pm_audit_check(&audit), PM_ELIMIT, "blue power does not close");
     pm_audit_free(&audit);
 }
