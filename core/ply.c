@@ -25,7 +25,8 @@ typedef struct {
 
 typedef struct {
     encoding form;
-    bool ours; // written by photonlab: photons
+    bool formed; // it said so
+    bool ours;   // written by photonlab: photons
     element elements[ELEMENTS_MAX];
     int element_count;
 } header;
@@ -86,30 +87,60 @@ static const char *read_property(const char *line, header *h)
     return p->bytes == 0 ? "has a property of unknown type" : NULL;
 }
 
-static const char *read_line(const char *line, header *h, bool *formed)
+static const char *read_format(const char *line, header *h)
+{
+    static const char *const known[3] = {"ascii", "binary_little_endian", "binary_big_endian"};
+    char name[WORD];
+    char version[WORD];
+    if (sscanf(line, "format %31s %31s", name, version) == 2 && strcmp(version, "1.0") == 0) {
+        for (int i = 0; i < 3; i++) {
+            if (strcmp(name, known[i]) == 0) {
+                h->form = (encoding)i;
+                h->formed = true;
+                return NULL;
+            }
+        }
+    }
+    return "has a format that is not ascii or binary of version 1.0";
+}
+
+static const char *read_comment(const char *line, header *h)
 {
     char word[WORD] = "";
-    char second[WORD] = "";
-    sscanf(line, "%31s %31s", word, second);
-    if (strcmp(word, "format") == 0) {
-        h->form = strcmp(second, "ascii") == 0                  ? ASCII
-                  : strcmp(second, "binary_little_endian") == 0 ? LITTLE_ENDIAN_BINARY
-                                                                : BIG_ENDIAN_BINARY;
-        *formed = true;
-    } else if (strcmp(word, "comment") == 0) {
-        h->ours = h->ours || strcmp(second, "photonlab") == 0;
-    } else if (strcmp(word, "element") == 0) {
-        return read_element(line, h);
-    } else if (strcmp(word, "property") == 0) {
-        return read_property(line, h);
-    }
+    sscanf(line, "comment %31s", word);
+    h->ours = h->ours || strcmp(word, "photonlab") == 0;
     return NULL;
+}
+
+static const char *pass_over(const char *line, header *h)
+{
+    (void)line;
+    (void)h;
+    return NULL;
+}
+
+static const char *read_line(const char *line, header *h)
+{
+    static const struct {
+        const char *word;
+        const char *(*read)(const char *line, header *h);
+    } known[] = {{"format ", read_format},
+                 {"comment", read_comment},
+                 {"obj_info", pass_over},
+                 {"element ", read_element},
+                 {"property ", read_property}};
+    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
+        if (strncmp(line, known[i].word, strlen(known[i].word)) == 0) {
+            return known[i].read(line, h);
+        }
+    }
+    // Assimp never comes back from some headers with other words in them.
+    return "has a header line that is none of PLY";
 }
 
 /// Reads the header; `body` becomes where the rows begin.
 static const char *read_header(const char *bytes, header *h, const char **body)
 {
-    bool formed = false;
     if (strncmp(bytes, "ply\n", 4) != 0 && strncmp(bytes, "ply\r\n", 5) != 0) {
         return "is not a PLY file: it must begin with \"ply\"";
     }
@@ -117,11 +148,12 @@ static const char *read_header(const char *bytes, header *h, const char **body)
         if (strchr(line, '\n') == NULL) {
             return "is cut short: its header has no end_header";
         }
-        if (strncmp(line, "end_header", 10) == 0) {
+        if (strncmp(line, "end_header\n", 11) == 0 ||
+            strncmp(line, "end_header\r\n", 12) == 0) {
             *body = strchr(line, '\n') + 1;
-            return formed ? NULL : "has no format";
+            return h->formed ? NULL : "has no format";
         }
-        const char *wrong = read_line(line, h, &formed);
+        const char *wrong = read_line(line, h);
         if (wrong != NULL) {
             return wrong;
         }

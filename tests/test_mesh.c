@@ -148,6 +148,10 @@ static void headers(void)
     check_header("plyx\n", "not a PLY file");
     check_header("ply\nformat ascii 1.0\n", "end_header");
     check_header("ply\nend_header\n", "no format");
+    check_header("ply\nformat text 1.0\nend_header\n", "a format that is not");
+    check_header("ply\nformat ascii 2.0\nend_header\n", "a format that is not");
+    check_header("ply\nformat ascii 1.0\nend_headers\nend_header\n", "none of PLY");
+    check_header("ply\nformat ascii 1.0\nproper float x\nend_header\n", "none of PLY");
     check_header("ply\nformat ascii 1.0\nproperty float x\nend_header\n", "before its first");
     check_header("ply\nformat ascii 1.0\nelement face -3\nend_header\n", "without a count");
     check_header("ply\nformat ascii 1.0\nelement face 1\nproperty real x\nend_header\n",
