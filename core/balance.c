@@ -277,7 +277,9 @@ static void descend(walk *w, uint64_t node)
     uint64_t count = w->map->count;
     while (node <= count) {
         const pm_photon *photon = &w->map->photons[node - 1];
-        __builtin_prefetch(&w->map->photons[2 * node - 1]);
+        if (2 * node <= count) {
+            __builtin_prefetch(photon + node); // its children, two in a row
+        }
         w->looked_at++;
         consider(search, photon, (uint32_t)(node - 1), &w->held);
         int axis = photon->flags & PM_PHOTON_AXIS;

@@ -179,31 +179,36 @@ static void scale_is_undone_exactly(void)
 static void diffuse_radiance_is_albedo_over_pi(void)
 {
     pm_photon_map map = {.kind = PM_MAP_GLOBAL}; // packed: directions are coarse
-    pm_vec3 up = pm_vec(0.0, 0.0, 1.0);
+    // Tilted: on an axis the bins of the polar angle end just at the floor.
+    pm_frame frame = pm_frame_around(pm_vec_normalize(pm_vec(1.0, 2.0, 3.0)));
+    int below = 0;
     for (int i = 0; i < 64; i++) {
         pm_rng rng = pm_fields_rng((uint64_t)i);
         double angle = 2.0 * PM_PI * pm_rng_draw(&rng);
         double away = pm_rng_draw(&rng);
-        // Grazing: the packed direction of many of these comes from below the floor.
-        pm_deposit deposit = {.position = pm_vec(away * cos(angle), away * sin(angle), 0.0),
-                              .direction = pm_vec(cos(angle), sin(angle), -1e-3),
-                              .normal = up,
+        pm_vec3 out = pm_vec(cos(angle), sin(angle), 0.0);
+        pm_vec3 graze = pm_vec(out.x, out.y, -1e-3);
+        pm_deposit deposit = {.position = pm_frame_to_world(&frame, pm_vec_scale(out, away)),
+                              .direction = pm_frame_to_world(&frame, graze),
+                              .normal = frame.n,
                               .power = pm_rgb(1.0, 2.0, 4.0)};
         CHECK_OK(pm_store_push(&map, &deposit));
+        below += pm_vec_dot(pm_store_unpack(&map, (uint32_t)i).direction, frame.n) > 0.0;
     }
+    CHECK(below > 10); // packed, these come from behind the floor
     pm_fields_finish(&map);
+    pm_estimate_point point = {{0.0, 0.0, 0.0}, frame.n};
     pm_lobes lobes = {.lobe = {{PM_LOBE_DIFFUSE, false, {{0.5, 0.25, 0.0}}}},
                       .count = 1,
                       .diffuse = true,
-                      .wi = {0.0, 0.6, 0.8},
-                      .normal = up};
+                      .wi = frame.n,
+                      .normal = frame.n};
     pm_estimate_settings settings = pm_estimate_defaults();
     settings.k = 32;
     pm_neighbour scratch[32];
     pm_estimate radiance;
-    CHECK_OK(
-        pm_estimate_radiance(&map, &settings, &pm_fields_floor, &lobes, scratch, &radiance));
-    pm_spectrum irradiance = pm_fields_ask(&map, &settings, &pm_fields_floor).value;
+    CHECK_OK(pm_estimate_radiance(&map, &settings, &point, &lobes, scratch, &radiance));
+    pm_spectrum irradiance = pm_fields_ask(&map, &settings, &point).value;
     CHECK_NEAR(radiance.value.c[0] / irradiance.c[0], 0.5 / PM_PI, 1e-14);
     CHECK_NEAR(radiance.value.c[1] / irradiance.c[1], 0.25 / PM_PI, 1e-14);
     CHECK(radiance.value.c[2] == 0.0 && irradiance.c[2] > 0.0);
