@@ -261,6 +261,41 @@ static void a_thin_wall_leaks_nothing(void)
     site_free(&at);
 }
 
+// --- fair shares -----------------------------------------------------------------------------
+
+// Samples of one pixel may stand on different surfaces; so each sample's share of the lattice
+// has to be fair by itself. Below the centre of a square of side 1, half above:
+// E = (4 / pi) q atan(q) pi L with q = 1 / sqrt(2).
+static void each_sample_gets_a_fair_share(void)
+{
+    enum { PIXELS = 8000, SPP = 4 };
+    site at = {0};
+    pm_scenes_begin(&at.s);
+    add_floor(&at.s);
+    int lamp = pm_scenes_add(&at.s, pm_scenes_square(1.0, 0.5, true), PM_NONE, PM_NONE);
+    pm_scenes_lamp(&at.s, lamp, pm_gray(3.0));
+    site_ready(&at);
+    at.gather.settings.light_samples = SPP;
+    at.gather.settings.spp = SPP;
+    pm_vertex floor = pm_pictures_meet(&at.s, pm_vec(0.0, 0.0, 0.01), pm_vec(0.0, 0.0, -1.0));
+    double q = sqrt(0.5);
+    double want = albedo * 3.0 * 4.0 / PM_PI * q * atan(q);
+    for (uint32_t sample = 0; sample < SPP; sample++) {
+        double sum = 0.0;
+        double square = 0.0;
+        floor.sample = sample;
+        for (floor.pixel = 0; floor.pixel < PIXELS; floor.pixel++) {
+            pm_spectrum radiance;
+            CHECK_OK(at.compose.ask.direct(&at.gather, &floor, &radiance));
+            sum += radiance.c[0];
+            square += radiance.c[0] * radiance.c[0];
+        }
+        double mean = sum / PIXELS;
+        CHECK_NEAR(mean, want, pm_chance_bound(square / PIXELS - mean * mean, PIXELS));
+    }
+    site_free(&at);
+}
+
 PM_TESTS({"gather.1", "a lamp glows on the side of its normal only", lamps_glow_on_one_side},
          {"gather.2", "each light is looked up in one map, and no photon counts in two layers",
           each_map_is_asked_for_its_own_light},
@@ -269,4 +304,6 @@ PM_TESTS({"gather.1", "a lamp glows on the side of its normal only", lamps_glow_
          {"gather.4", "gathering under known skies gives albedo times their mean over cosines",
           gathering_follows_closed_forms},
          {"gather.5", "the dark side of a thin wall gets exactly nothing, by rays and by map",
-          a_thin_wall_leaks_nothing})
+          a_thin_wall_leaks_nothing},
+         {"gather.6", "each sample's share of a pixel's shadow rays is fair by itself",
+          each_sample_gets_a_fair_share})
