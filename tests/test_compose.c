@@ -1,71 +1,9 @@
 // Composing alone: sources that answer with constants show who was asked, for which layer and
 // with what weight.
 #include "chance.h"
-#include "compose.h"
-#include "scenes.h"
+#include "desk.h"
 #include "shapes.h"
 #include "test.h"
-
-// What the made-up sources answer; a sum of answers can be read off its digits.
-static const double emitted_is = 1.0;
-static const double direct_is = 10.0;
-static const double caustic_is = 100.0;
-static const double indirect_is = 1000.0;
-static const double global_is = 10000.0;
-static const double all_is = 1111.0; // of a diffuse lamp, seen by the eye
-
-/// A scene and a composer, with counts of who was asked.
-typedef struct {
-    pm_scenes s;
-    pm_compose compose;
-    int direct, caustic, indirect, global; // calls
-    uint64_t cut;                          // gather rays
-    pm_vertex last;                        // that was asked about
-} desk;
-
-static pm_status say_emitted(void *context, const pm_vertex *at, pm_spectrum *radiance)
-{
-    desk *d = context;
-    bool lamp = d->s.shapes[at->hit.shape].light != PM_NONE;
-    *radiance = pm_gray(lamp ? emitted_is : 0.0);
-    return PM_OK;
-}
-
-static pm_status say_direct(void *context, const pm_vertex *at, pm_spectrum *radiance)
-{
-    desk *d = context;
-    d->direct++;
-    d->last = *at;
-    *radiance = pm_gray(direct_is);
-    return PM_OK;
-}
-
-static pm_status say_caustic(void *context, const pm_vertex *at, pm_spectrum *radiance)
-{
-    desk *d = context;
-    d->caustic++;
-    d->last = *at;
-    *radiance = pm_gray(caustic_is);
-    return PM_OK;
-}
-
-static pm_status say_indirect(void *context, const pm_vertex *at, pm_spectrum *radiance)
-{
-    desk *d = context;
-    d->indirect++;
-    d->last = *at;
-    *radiance = pm_gray(indirect_is);
-    return PM_OK;
-}
-
-static pm_status say_global(void *context, const pm_vertex *at, pm_spectrum *radiance)
-{
-    desk *d = context;
-    d->global++;
-    d->last = *at;
-    *radiance = pm_gray(global_is);
-    return PM_OK;
-}
 
 static pm_status say_broken(void *context, const pm_vertex *at, pm_spectrum *radiance)
 {
@@ -73,47 +11,6 @@ static pm_status say_broken(void *context, const pm_vertex *at, pm_spectrum *rad
     (void)at;
     *radiance = pm_gray(1.0);
     return PM_FAIL(PM_ENOMEM, "%s", "the lookup broke");
-}
-
-/// To be called when the scene's materials, shapes and lights are there.
-static void desk_ready(desk *d)
-{
-    pm_scenes_ready(&d->s);
-    d->compose = (pm_compose){
-        .world = &d->s.world,
-        .source = {.seed = 5, .stream = PM_STREAM_CAMERA},
-        .max_specular = 1000,
-        .splits = 2,
-        .ask = {.context = d,
-                .emitted = say_emitted,
-                .direct = say_direct,
-                .caustic = say_caustic,
-                .indirect = say_indirect,
-                .global = say_global},
-    };
-    for (int layer = 0; layer < PM_LAYER_COUNT; layer++) {
-        d->compose.wanted[layer] = true;
-    }
-}
-
-static pm_eye look(const desk *d, pm_vec3 from, pm_vec3 to, uint64_t index)
-{
-    pm_vec3 way = pm_vec_normalize(pm_vec_sub(to, from));
-    pm_ray ray = {from, way, HUGE_VAL, 0.0, PM_NONE};
-    pm_eye eye = {0};
-    CHECK_OK(pm_compose_eye(&d->compose, &ray, 3, 2, index, &eye));
-    return eye;
-}
-
-static double gather(desk *d, pm_vec3 from, pm_vec3 to, uint64_t index)
-{
-    pm_vec3 way = pm_vec_normalize(pm_vec_sub(to, from));
-    pm_ray ray = {from, way, HUGE_VAL, 0.0, PM_NONE};
-    pm_vertex at = {.pixel = 3, .sample = 2, .vertex = 1};
-    pm_rng rng = pm_rng_at(&d->compose.source, index, 9);
-    pm_spectrum radiance;
-    CHECK_OK(pm_compose_gather(&d->compose, &ray, &at, &rng, &radiance, &d->cut));
-    return radiance.c[0];
 }
 
 static void check_layers(const pm_eye *eye, double emission, double direct, double caustic,
@@ -131,7 +28,7 @@ static const pm_vec3 middle = {0.0, 0.0, 0.0};
 static const pm_vec3 down = {0.0, 0.0, -1.0}; // a point straight below the middle
 
 /// A lamp that is diffuse, too, fills z = -1, facing up.
-static void add_lamp(desk *d, int material)
+static void add_lamp(pm_desk *d, int material)
 {
     int lamp = pm_scenes_wear(&d->s, pm_scenes_square(4.0, -1.0, false), material);
     pm_scenes_lamp(&d->s, lamp, pm_gray(1.0));
@@ -139,23 +36,23 @@ static void add_lamp(desk *d, int material)
 
 static void diffuse_lamp_fills_each_layer_once(void)
 {
-    desk d = {0};
+    pm_desk d = {0};
     pm_scenes_begin(&d.s);
     add_lamp(&d, pm_scenes_diffuse(&d.s, pm_gray(0.5)));
-    desk_ready(&d);
-    pm_eye eye = look(&d, middle, down, 0);
-    check_layers(&eye, emitted_is, direct_is, caustic_is, indirect_is, 0.0);
+    pm_desk_ready(&d);
+    pm_eye eye = pm_desk_look(&d, middle, down, 0);
+    check_layers(&eye, PM_DESK_EMITTED, PM_DESK_DIRECT, PM_DESK_CAUSTIC, PM_DESK_INDIRECT, 0.0);
     CHECK(eye.hit && eye.emitter && eye.vertices == 1 && eye.cut == 0);
     CHECK(d.direct == 1 && d.caustic == 1 && d.indirect == 1 && d.global == 0);
     CHECK(d.last.pixel == 3 && d.last.sample == 2 && d.last.vertex == 1);
     CHECK_NEAR(eye.depth, 1.0, 1e-12);
     CHECK_NEAR(eye.normal.z, 1.0, 0.0);
 
-    pm_eye nothing = look(&d, middle, pm_vec(0.0, 0.0, 1.0), 0);
+    pm_eye nothing = pm_desk_look(&d, middle, pm_vec(0.0, 0.0, 1.0), 0);
     check_layers(&nothing, 0.0, 0.0, 0.0, 0.0, 0.0);
     CHECK(!nothing.hit && !nothing.emitter && nothing.vertices == 0);
 
-    pm_eye behind = look(&d, pm_vec(0.0, 0.0, -2.0), down, 0);
+    pm_eye behind = pm_desk_look(&d, pm_vec(0.0, 0.0, -2.0), down, 0);
     CHECK(behind.hit && !behind.emitter);
     CHECK_NEAR(behind.normal.z, -1.0, 0.0);
     pm_scenes_free(&d.s);
@@ -163,15 +60,15 @@ static void diffuse_lamp_fills_each_layer_once(void)
 
 static void mirrors_bring_everything_into_specular(void)
 {
-    desk d = {0};
+    pm_desk d = {0};
     pm_scenes_begin(&d.s);
     add_lamp(&d, pm_scenes_diffuse(&d.s, pm_gray(0.5)));
     pm_scenes_wear(&d.s, pm_scenes_square(4.0, 1.0, true),
                    pm_scenes_mirror(&d.s, pm_rgb(0.75, 0.5, 0.25)));
-    desk_ready(&d);
-    pm_eye eye = look(&d, middle, pm_vec(0.0, 0.0, 1.0), 0);
-    check_layers(&eye, 0.0, 0.0, 0.0, 0.0, 0.5 * all_is);
-    CHECK_NEAR(eye.layer[PM_LAYER_SPECULAR].c[0], 0.75 * all_is, 1e-9);
+    pm_desk_ready(&d);
+    pm_eye eye = pm_desk_look(&d, middle, pm_vec(0.0, 0.0, 1.0), 0);
+    check_layers(&eye, 0.0, 0.0, 0.0, 0.0, 0.5 * PM_DESK_ALL);
+    CHECK_NEAR(eye.layer[PM_LAYER_SPECULAR].c[0], 0.75 * PM_DESK_ALL, 1e-9);
     CHECK(eye.emitter && eye.vertices == 2 && d.last.vertex == 2);
     CHECK_NEAR(eye.depth, 1.0, 1e-12);
     CHECK_NEAR(eye.normal.z, -1.0, 0.0);
@@ -182,7 +79,7 @@ static void glass_in_a_uniform_room_is_invisible(void)
 {
     const uint32_t splits[] = {0, 1, 2, 5};
     const pm_roulette_rule rules[] = {PM_ROULETTE_MAX, PM_ROULETTE_AVERAGE};
-    desk d = {0};
+    pm_desk d = {0};
     pm_scenes_begin(&d.s);
     int glass = pm_scenes_glass(&d.s, 1.5);
     int room = pm_scenes_room(&d.s, 2.0, pm_scenes_diffuse(&d.s, pm_gray(0.5)));
@@ -190,13 +87,13 @@ static void glass_in_a_uniform_room_is_invisible(void)
         pm_scenes_lamp(&d.s, wall, pm_gray(1.0));
     }
     pm_scenes_wear(&d.s, pm_shapes_sphere(middle, 1.0), glass);
-    desk_ready(&d);
+    pm_desk_ready(&d);
     for (uint64_t i = 0; i < 400; i++) {
         pm_rng rng = pm_shapes_rng(i, 1);
         d.compose.splits = splits[i % 4];
         d.compose.rule = rules[i / 4 % 2];
-        pm_eye eye = look(&d, pm_vec(1.5, 1.2, -0.9), pm_shapes_inside(&rng, 0.5), i);
-        check_layers(&eye, 0.0, 0.0, 0.0, 0.0, all_is);
+        pm_eye eye = pm_desk_look(&d, pm_vec(1.5, 1.2, -0.9), pm_shapes_inside(&rng, 0.5), i);
+        check_layers(&eye, 0.0, 0.0, 0.0, 0.0, PM_DESK_ALL);
         CHECK(eye.cut == 0);
     }
     pm_scenes_free(&d.s);
@@ -206,103 +103,103 @@ static void glass_in_a_uniform_room_is_invisible(void)
 // that is n^2 times less outside.
 static void glass_thins_radiance_that_leaves_it(void)
 {
-    desk d = {0};
+    pm_desk d = {0};
     pm_scenes_begin(&d.s);
     int diffuse = pm_scenes_diffuse(&d.s, pm_gray(0.5));
     int glass = pm_scenes_glass(&d.s, 1.5);
     pm_scenes_wear(&d.s, pm_shapes_sphere(middle, 1.0), glass);
     pm_scenes_wear(&d.s, pm_shapes_sphere(middle, 0.5), diffuse);
-    desk_ready(&d);
-    double answer = direct_is + caustic_is + indirect_is;
+    pm_desk_ready(&d);
+    double answer = PM_DESK_DIRECT + PM_DESK_CAUSTIC + PM_DESK_INDIRECT;
     d.compose.splits = 1; // the mirrored part of the second crossing plays roulette and escapes
-    pm_eye eye = look(&d, pm_vec(3.0, 0.0, 0.0), middle, 0);
+    pm_eye eye = pm_desk_look(&d, pm_vec(3.0, 0.0, 0.0), middle, 0);
     check_layers(&eye, 0.0, 0.0, 0.0, 0.0, 0.96 / 2.25 * answer);
     pm_scenes_free(&d.s);
 }
 
 static void null_surfaces_are_no_event(void)
 {
-    desk d = {0};
+    pm_desk d = {0};
     pm_scenes_begin(&d.s);
     add_lamp(&d, pm_scenes_diffuse(&d.s, pm_gray(0.5)));
     int null = pm_scenes_null(&d.s);
     pm_scenes_wear(&d.s, pm_scenes_square(4.0, -0.25, false), null);
     pm_scenes_wear(&d.s, pm_scenes_square(4.0, -0.5, true), null);
-    desk_ready(&d);
-    pm_eye eye = look(&d, middle, down, 0);
-    check_layers(&eye, emitted_is, direct_is, caustic_is, indirect_is, 0.0);
+    pm_desk_ready(&d);
+    pm_eye eye = pm_desk_look(&d, middle, down, 0);
+    check_layers(&eye, PM_DESK_EMITTED, PM_DESK_DIRECT, PM_DESK_CAUSTIC, PM_DESK_INDIRECT, 0.0);
     CHECK(eye.vertices == 1);
     CHECK_NEAR(eye.depth, 1.0, 1e-12); // from the eye, not from the last pane
-    CHECK_NEAR(gather(&d, middle, down, 0), global_is, 1e-9);
+    CHECK_NEAR(pm_desk_gather(&d, middle, down, 0), PM_DESK_GLOBAL, 1e-9);
     pm_scenes_free(&d.s);
 }
 
 static void back_of_a_one_sided_surface_is_black(void)
 {
-    desk d = {0};
+    pm_desk d = {0};
     pm_scenes_begin(&d.s);
     int diffuse = pm_scenes_diffuse(&d.s, pm_gray(0.5));
     pm_scenes_add(&d.s, pm_scenes_square(4.0, -1.0, true), diffuse, PM_NONE);
     pm_scenes_wear(&d.s, pm_scenes_square(4.0, 1.0, false), diffuse);
-    desk_ready(&d);
-    pm_eye back = look(&d, middle, down, 0);
+    pm_desk_ready(&d);
+    pm_eye back = pm_desk_look(&d, middle, down, 0);
     check_layers(&back, 0.0, 0.0, 0.0, 0.0, 0.0);
     CHECK(back.hit && back.vertices == 1 && d.direct == 0);
-    CHECK_NEAR(gather(&d, middle, down, 0), 0.0, 0.0);
+    CHECK_NEAR(pm_desk_gather(&d, middle, down, 0), 0.0, 0.0);
 
-    pm_eye twosided = look(&d, middle, pm_vec(0.0, 0.0, 1.0), 0);
-    check_layers(&twosided, 0.0, direct_is, caustic_is, indirect_is, 0.0);
+    pm_eye twosided = pm_desk_look(&d, middle, pm_vec(0.0, 0.0, 1.0), 0);
+    check_layers(&twosided, 0.0, PM_DESK_DIRECT, PM_DESK_CAUSTIC, PM_DESK_INDIRECT, 0.0);
     pm_scenes_free(&d.s);
 }
 
 static void unwanted_layers_are_not_asked_for(void)
 {
-    desk d = {0};
+    pm_desk d = {0};
     pm_scenes_begin(&d.s);
     add_lamp(&d, pm_scenes_diffuse(&d.s, pm_gray(0.5)));
     pm_scenes_wear(&d.s, pm_scenes_square(4.0, 1.0, true),
                    pm_scenes_mirror(&d.s, pm_gray(1.0)));
-    desk_ready(&d);
+    pm_desk_ready(&d);
     for (int wanted = 0; wanted < PM_LAYER_COUNT; wanted++) {
         for (int layer = 0; layer < PM_LAYER_COUNT; layer++) {
             d.compose.wanted[layer] = layer == wanted;
         }
         d.direct = d.caustic = d.indirect = 0;
-        pm_eye eye = look(&d, middle, down, 0);
-        check_layers(&eye, wanted == PM_LAYER_EMISSION ? emitted_is : 0.0,
-                     wanted == PM_LAYER_DIRECT ? direct_is : 0.0,
-                     wanted == PM_LAYER_CAUSTIC ? caustic_is : 0.0,
-                     wanted == PM_LAYER_INDIRECT ? indirect_is : 0.0, 0.0);
+        pm_eye eye = pm_desk_look(&d, middle, down, 0);
+        check_layers(&eye, wanted == PM_LAYER_EMISSION ? PM_DESK_EMITTED : 0.0,
+                     wanted == PM_LAYER_DIRECT ? PM_DESK_DIRECT : 0.0,
+                     wanted == PM_LAYER_CAUSTIC ? PM_DESK_CAUSTIC : 0.0,
+                     wanted == PM_LAYER_INDIRECT ? PM_DESK_INDIRECT : 0.0, 0.0);
         CHECK(d.direct == (wanted == PM_LAYER_DIRECT));
         CHECK(d.caustic == (wanted == PM_LAYER_CAUSTIC));
         CHECK(d.indirect == (wanted == PM_LAYER_INDIRECT));
-        eye = look(&d, middle, pm_vec(0.0, 0.0, 1.0), 0);
-        check_layers(&eye, 0.0, 0.0, 0.0, 0.0, wanted == PM_LAYER_SPECULAR ? all_is : 0.0);
+        eye = pm_desk_look(&d, middle, pm_vec(0.0, 0.0, 1.0), 0);
+        check_layers(&eye, 0.0, 0.0, 0.0, 0.0, wanted == PM_LAYER_SPECULAR ? PM_DESK_ALL : 0.0);
     }
     pm_scenes_free(&d.s);
 }
 
 static void missing_sources_are_black(void)
 {
-    desk d = {0};
+    pm_desk d = {0};
     pm_scenes_begin(&d.s);
     add_lamp(&d, pm_scenes_diffuse(&d.s, pm_gray(0.5)));
-    desk_ready(&d);
+    pm_desk_ready(&d);
     d.compose.ask.caustic = NULL;
     d.compose.ask.indirect = NULL;
     d.compose.ask.global = NULL;
-    pm_eye eye = look(&d, middle, down, 0);
-    check_layers(&eye, emitted_is, direct_is, 0.0, 0.0, 0.0);
-    CHECK_NEAR(gather(&d, middle, down, 0), 0.0, 0.0);
+    pm_eye eye = pm_desk_look(&d, middle, down, 0);
+    check_layers(&eye, PM_DESK_EMITTED, PM_DESK_DIRECT, 0.0, 0.0, 0.0);
+    CHECK_NEAR(pm_desk_gather(&d, middle, down, 0), 0.0, 0.0);
     pm_scenes_free(&d.s);
 }
 
 static void failures_of_a_source_come_back(void)
 {
-    desk d = {0};
+    pm_desk d = {0};
     pm_scenes_begin(&d.s);
     add_lamp(&d, pm_scenes_diffuse(&d.s, pm_gray(0.5)));
-    desk_ready(&d);
+    pm_desk_ready(&d);
     d.compose.ask.caustic = say_broken;
     d.compose.ask.global = say_broken;
     pm_ray ray = {middle, down, HUGE_VAL, 0.0, PM_NONE};
@@ -318,38 +215,39 @@ static void failures_of_a_source_come_back(void)
 
 static void endless_mirrors_are_cut_and_counted(void)
 {
-    desk d = {0};
+    pm_desk d = {0};
     pm_scenes_begin(&d.s);
     int mirror = pm_scenes_mirror(&d.s, pm_gray(1.0));
     pm_scenes_wear(&d.s, pm_scenes_square(4.0, 1.0, true), mirror);
     int floor = pm_scenes_wear(&d.s, pm_scenes_square(4.0, -1.0, false), mirror);
-    desk_ready(&d);
+    pm_desk_ready(&d);
     d.compose.max_specular = 10;
-    pm_eye eye = look(&d, middle, down, 0);
+    pm_eye eye = pm_desk_look(&d, middle, down, 0);
     CHECK(eye.cut == 1 && eye.vertices == 11 && !eye.emitter);
-    CHECK_NEAR(gather(&d, middle, down, 0), 0.0, 0.0);
+    CHECK_NEAR(pm_desk_gather(&d, middle, down, 0), 0.0, 0.0);
     CHECK(d.cut == 1);
 
     // A path whose last allowed event takes it to a wall is whole.
     int diffuse = pm_scenes_diffuse(&d.s, pm_gray(0.5));
     d.s.shapes[floor].material[0] = d.s.shapes[floor].material[1] = diffuse;
     d.compose.max_specular = 1;
-    eye = look(&d, middle, pm_vec(0.0, 0.0, 1.0), 0);
-    check_layers(&eye, 0.0, 0.0, 0.0, 0.0, direct_is + caustic_is + indirect_is);
+    eye = pm_desk_look(&d, middle, pm_vec(0.0, 0.0, 1.0), 0);
+    check_layers(&eye, 0.0, 0.0, 0.0, 0.0, PM_DESK_DIRECT + PM_DESK_CAUSTIC + PM_DESK_INDIRECT);
     CHECK(eye.cut == 0);
-    CHECK_NEAR(gather(&d, middle, pm_vec(0.0, 0.0, 1.0), 0), global_is, 1e-9);
+    CHECK_NEAR(pm_desk_gather(&d, middle, pm_vec(0.0, 0.0, 1.0), 0), PM_DESK_GLOBAL, 1e-9);
     CHECK(d.cut == 1);
     pm_scenes_free(&d.s);
 }
 
 /// Mean and variance of the specular layer of 4000 looks at a point.
-static void many_looks(const desk *d, pm_vec3 from, pm_vec3 to, double *mean, double *variance)
+static void many_looks(const pm_desk *d, pm_vec3 from, pm_vec3 to, double *mean,
+                       double *variance)
 {
     enum { LOOKS = 4000 };
     double sum = 0.0;
     double square = 0.0;
     for (uint64_t i = 0; i < LOOKS; i++) {
-        double x = look(d, from, to, i).layer[PM_LAYER_SPECULAR].c[0];
+        double x = pm_desk_look(d, from, to, i).layer[PM_LAYER_SPECULAR].c[0];
         sum += x;
         square += x * x;
     }
@@ -360,11 +258,11 @@ static void many_looks(const desk *d, pm_vec3 from, pm_vec3 to, double *mean, do
 // A black room but for one wall behind the ball, so that lobes bring different light.
 static void splitting_and_roulette_have_one_mean(void)
 {
-    desk d = {0};
+    pm_desk d = {0};
     pm_scenes_begin(&d.s);
     add_lamp(&d, pm_scenes_diffuse(&d.s, pm_gray(0.5)));
     pm_scenes_wear(&d.s, pm_shapes_sphere(middle, 0.5), pm_scenes_glass(&d.s, 1.5));
-    desk_ready(&d);
+    pm_desk_ready(&d);
     pm_vec3 from = pm_vec(0.3, 0.2, 2.0);
     pm_vec3 to = pm_vec(0.2, 0.25, 0.0);
     double want;
@@ -386,19 +284,20 @@ static void splitting_and_roulette_have_one_mean(void)
 
 static void gather_rays_see_no_lamps(void)
 {
-    desk d = {0};
+    pm_desk d = {0};
     pm_scenes_begin(&d.s);
     add_lamp(&d, PM_NONE); // black but for what it emits
     pm_scenes_wear(&d.s, pm_scenes_square(4.0, 1.0, true),
                    pm_scenes_mirror(&d.s, pm_gray(1.0)));
     pm_scenes_wear(&d.s, pm_shapes_sphere(pm_vec(5.0, 0.0, 0.0), 0.5),
                    pm_scenes_glass(&d.s, 1.5));
-    desk_ready(&d);
+    pm_desk_ready(&d);
     pm_vec3 up = pm_vec(0.1, 0.0, 1.0);
-    CHECK_NEAR(gather(&d, middle, down, 0), 0.0, 0.0);
-    CHECK_NEAR(gather(&d, middle, up, 0), 0.0, 0.0);
+    CHECK_NEAR(pm_desk_gather(&d, middle, down, 0), 0.0, 0.0);
+    CHECK_NEAR(pm_desk_gather(&d, middle, up, 0), 0.0, 0.0);
     for (uint64_t i = 0; i < 100; i++) { // through the ball, to the lamp or nowhere
-        CHECK_NEAR(gather(&d, pm_vec(10.0, 0.0, 0.3), pm_vec(5.0, 0.0, 0.1), i), 0.0, 0.0);
+        CHECK_NEAR(pm_desk_gather(&d, pm_vec(10.0, 0.0, 0.3), pm_vec(5.0, 0.0, 0.1), i), 0.0,
+                   0.0);
     }
     CHECK(d.direct + d.caustic + d.indirect + d.global == 0);
     pm_scenes_free(&d.s);
@@ -406,26 +305,26 @@ static void gather_rays_see_no_lamps(void)
 
 static void gather_rays_find_the_global_map_everywhere(void)
 {
-    desk d = {0};
+    pm_desk d = {0};
     pm_scenes_begin(&d.s);
     int diffuse = pm_scenes_diffuse(&d.s, pm_gray(0.5));
     add_lamp(&d, diffuse); // a lamp that reflects holds photons like any wall
     pm_scenes_wear(&d.s, pm_scenes_square(4.0, 1.0, true),
                    pm_scenes_mirror(&d.s, pm_gray(0.25)));
-    desk_ready(&d);
-    CHECK_NEAR(gather(&d, middle, down, 0), global_is, 0.0);
+    pm_desk_ready(&d);
+    CHECK_NEAR(pm_desk_gather(&d, middle, down, 0), PM_DESK_GLOBAL, 0.0);
     CHECK(d.global == 1 && d.last.pixel == 3 && d.last.sample == 2);
 
     double sum = 0.0;
     enum { RAYS = 4000 };
     for (uint64_t i = 0; i < RAYS; i++) {
-        sum += gather(&d, middle, pm_vec(0.1, 0.0, 1.0), i);
+        sum += pm_desk_gather(&d, middle, pm_vec(0.1, 0.0, 1.0), i);
     }
     // The mirror's quarter by roulette: all of the light, a quarter of the time.
-    double bound = pm_chance_bound(0.25 * 0.75 * global_is * global_is, RAYS);
-    CHECK_NEAR(sum / RAYS, 0.25 * global_is, bound);
+    double bound = pm_chance_bound(0.25 * 0.75 * PM_DESK_GLOBAL * (double)PM_DESK_GLOBAL, RAYS);
+    CHECK_NEAR(sum / RAYS, 0.25 * PM_DESK_GLOBAL, bound);
     CHECK(d.direct + d.caustic + d.indirect == 0);
-    CHECK_NEAR(gather(&d, middle, pm_vec(5.0, 0.0, 0.0), 0), 0.0, 0.0);
+    CHECK_NEAR(pm_desk_gather(&d, middle, pm_vec(5.0, 0.0, 0.0), 0), 0.0, 0.0);
     pm_scenes_free(&d.s);
 }
 
