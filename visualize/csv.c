@@ -104,7 +104,8 @@ pm_status pm_csv_number(const pm_csv *csv, int column, double *value)
     const char *text = csv->field[column];
     char *end = NULL;
     double got = strtod(text, &end);
-    if (end == text || *end != '\0' || !isfinite(got)) {
+    bool decimal = strspn(text, "0123456789+-.eE") == strlen(text);
+    if (!decimal || end == text || *end != '\0' || !isfinite(got)) {
         return pm_status_fail(PM_EINPUT, "%s:%ld: %s must be a finite number, got \"%.40s\"",
                               csv->path, csv->line, csv->name[column], text);
     }

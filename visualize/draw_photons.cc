@@ -17,6 +17,8 @@
 
 namespace {
 
+const double round_from = 2.0; // dot size
+
 vtkSmartPointer<vtkUnsignedCharArray> colour_points(const pm_photon_cloud *cloud,
                                                     double brightness)
 {
@@ -78,6 +80,8 @@ pm_status pm_draw_photons(pm_figure *figure, const pm_photon_cloud *cloud, doubl
         actor->SetMapper(mapper);
         actor->GetProperty()->LightingOff();
         actor->GetProperty()->SetPointSize(static_cast<float>(figure->pixels(dot_size)));
+        // Small dots look the same as squares, and a million are drawn much faster so.
+        actor->GetProperty()->SetRenderPointsAsSpheres(dot_size > round_from);
         figure->renderer->AddActor(actor);
         return PM_OK;
     });

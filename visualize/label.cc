@@ -201,7 +201,7 @@ pm_status pm_figure_mark(pm_figure *figure, pm_vec3 at, const char *text)
                 write(figure, text, x, figure->viewpoint.height - y, mark_size);
             style->SetColor(0.85, 0.87, 0.92);
             style->SetBackgroundColor(0.06, 0.07, 0.1);
-            style->SetBackgroundOpacity(0.6);
+            style->SetBackgroundOpacity(0.8);
             style->SetJustificationToCentered();
             style->SetVerticalJustificationToCentered();
         }

@@ -114,8 +114,8 @@ static pm_status add_cloud(picture *p, const char *path)
 /// So large that all dots together cover about the same area, whatever their number.
 static double dot_size(uint64_t count)
 {
-    double size = 2.0 * sqrt(1e5 / (double)(count > 0 ? count : 1));
-    return fmin(fmax(size, 1.0), 5.0);
+    double size = 1.4 * sqrt(1e5 / (double)(count > 0 ? count : 1));
+    return fmin(fmax(size, 1.0), 4.0);
 }
 
 /// One scale for all maps where their photons are equally strong, else one each.
