@@ -169,9 +169,15 @@ pm_status pm_probes_make(const char *program, const pm_options *options, const p
     int ways = options->has_at + (options->points != NULL) + (options->on != NULL);
     if (ways != 1) {
         return pm_status_fail(PM_EINPUT,
-                              "%s: says where by exactly one of --at (with --normal), --points "
+                              "%s: say where by exactly one of --at (with --normal), --points "
                               "and --on (with --grid), got %d of them",
                               program, ways);
+    }
+    if (options->has_normal && !options->has_at) {
+        return pm_status_fail(PM_EINPUT, "%s: --normal goes with --at only", program);
+    }
+    if (options->grid_w != 0 && options->on == NULL) {
+        return pm_status_fail(PM_EINPUT, "%s: --grid goes with --on only", program);
     }
     pm_probes made = {0};
     pm_status status = options->has_at           ? from_options(program, options, scene, &made)
