@@ -52,8 +52,7 @@ static pm_status check(const pm_photon_map *map, const pm_estimate_settings *set
     return PM_OK;
 }
 
-// --- which photons count
-// -----------------------------------------------------------------------
+// --- which photons count --------------------------------------------------------------------
 
 bool pm_estimate_accept(const void *context, const pm_photon *photon, double *distance2)
 {
@@ -87,8 +86,7 @@ static void widen_planes(const pm_estimate_query *query, double widen[3])
     }
 }
 
-// --- how large an area they stand for
-// ------------------------------------------------------------
+// --- how large an area they stand for -------------------------------------------------------
 
 /// The smallest radius that float positions around `at` can tell from 0.
 static double least_radius(pm_vec3 at)

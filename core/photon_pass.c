@@ -244,22 +244,23 @@ void pm_photon_pass_caps(const pm_scene *scene, uint32_t asked, uint32_t *max_bo
     *max_specular = asked != 0 ? asked : SPECULAR_CAP;
 }
 
-static void prepare(pm_pass *pass, const pm_intersector *world, pm_map_kind kind)
+/// What both stages are told. Shares the photons out among the lights.
+static pm_status prepare(const pm_intersector *world, pm_map_kind kind,
+                         const pm_pass_settings *settings, uint64_t *share,
+                         pm_emission *emission, pm_tracing *tracing)
 {
-    const pm_pass_settings *settings = pass->settings;
     pm_rng_source source = {settings->seed, (pm_rng_stream)kind, settings->pass};
-    pass->emission.scene = world->scene;
-    pass->emission.source = source;
-    pass->emission.count = settings->count;
-    pass->emission.projections = settings->projections;
-    pass->tracing = (pm_tracing){
+    *emission =
+        (pm_emission){world->scene, source, settings->count, share, settings->projections};
+    *tracing = (pm_tracing){
         .world = world,
         .source = source,
         .rule = settings->rule,
         .caustic_only = kind == PM_MAP_CAUSTIC,
     };
-    pm_photon_pass_caps(world->scene, settings->max_bounces, &pass->tracing.max_bounces,
-                        &pass->tracing.max_specular);
+    pm_photon_pass_caps(world->scene, settings->max_bounces, &tracing->max_bounces,
+                        &tracing->max_specular);
+    return pm_emit_share(world->scene, settings->count, share);
 }
 
 static pm_status outcome(const pm_pass *pass)
@@ -285,9 +286,7 @@ static pm_status run(const pm_intersector *world, pm_map_kind kind,
 {
     double start = pm_seconds_now();
     pm_pass pass = {.settings = settings, .map = map, .report = report};
-    prepare(&pass, world, kind);
-    PM_TRY(pm_emit_share(world->scene, settings->count, report->share));
-    pass.emission.share = report->share;
+    PM_TRY(prepare(world, kind, settings, report->share, &pass.emission, &pass.tracing));
     pass.progress = pm_progress_begin("tracing", settings->count);
     run_chunks(&pass);
     pm_progress_end(&pass.progress);
@@ -301,16 +300,22 @@ static pm_status run(const pm_intersector *world, pm_map_kind kind,
     return PM_OK;
 }
 
+static pm_status make_share(const pm_scene *scene, uint64_t **share)
+{
+    *share = calloc((size_t)scene->light_count, sizeof **share);
+    if (*share == NULL) {
+        return PM_FAIL(PM_ENOMEM, "no memory for the shares of %d lights", scene->light_count);
+    }
+    return PM_OK;
+}
+
 pm_status pm_photon_pass(const pm_intersector *world, pm_map_kind kind,
                          const pm_pass_settings *settings, pm_photon_map *map,
                          pm_pass_report *report)
 {
     const pm_scene *scene = world->scene;
     pm_pass_report fresh = {0};
-    fresh.share = calloc((size_t)scene->light_count, sizeof *fresh.share);
-    if (fresh.share == NULL) {
-        return PM_FAIL(PM_ENOMEM, "no memory for the shares of %d lights", scene->light_count);
-    }
+    PM_TRY(make_share(scene, &fresh.share));
     pm_photon_map filled = {.kind = kind, .unpacked = settings->unpacked, .scale = 1.0};
     pm_status status = pm_audit_make(scene->shape_count, &fresh.audit);
     if (status == PM_OK) {
@@ -335,4 +340,44 @@ void pm_pass_report_free(pm_pass_report *report)
     free(report->share);
     pm_audit_free(&report->audit);
     *report = (pm_pass_report){0};
+}
+
+static pm_status ignore_deposit(void *context, const pm_deposit *deposit)
+{
+    (void)context;
+    (void)deposit;
+    return PM_OK;
+}
+
+static pm_status replay(const pm_emission *emission, const pm_tracing *tracing, uint64_t photon,
+                        uint32_t *light)
+{
+    pm_start start;
+    PM_TRY(pm_emit_photons(emission, photon, 1, &start));
+    *light = start.light;
+    return pm_trace_photons(tracing, &start, 1);
+}
+
+pm_status pm_photon_replay(const pm_intersector *world, pm_map_kind kind,
+                           const pm_pass_settings *settings, uint64_t photon,
+                           const pm_trace_sink *sink, uint32_t *light)
+{
+    if (photon >= settings->count) {
+        return PM_FAIL(PM_EINPUT, "a pass of %llu photons has no photon %llu",
+                       (unsigned long long)settings->count, (unsigned long long)photon);
+    }
+    uint64_t *share;
+    PM_TRY(make_share(world->scene, &share));
+    pm_emission emission;
+    pm_tracing tracing;
+    pm_status status = prepare(world, kind, settings, share, &emission, &tracing);
+    tracing.sink = *sink;
+    if (sink->deposit == NULL) {
+        tracing.sink.deposit = ignore_deposit;
+    }
+    if (status == PM_OK) {
+        status = replay(&emission, &tracing, photon, light);
+    }
+    free(share);
+    return status;
 }

@@ -41,6 +41,16 @@ pm_status pm_photon_pass(const pm_intersector *world, pm_map_kind kind,
                          const pm_pass_settings *settings, pm_photon_map *map,
                          pm_pass_report *report);
 
+/// Follows photon number `photon` of a pass again, alone: what it did in the pass, it does
+/// here.
+///
+/// @param sink   sees its events and, where `deposit` is not NULL, its deposits
+/// @param light  [out] that sent it
+/// @return PM_EINPUT when the pass has no such photon
+pm_status pm_photon_replay(const pm_intersector *world, pm_map_kind kind,
+                           const pm_pass_settings *settings, uint64_t photon,
+                           const pm_trace_sink *sink, uint32_t *light);
+
 /// The caps in force: `asked` for both if it is not 0; else no cap on events unless a diffuse
 /// albedo exceeds 0.9999 (then 10,000), and 1,000 specular events in a row.
 void pm_photon_pass_caps(const pm_scene *scene, uint32_t asked, uint32_t *max_bounces,

@@ -110,8 +110,7 @@ static pm_status from_file(const char *path, const pm_scene *scene, pm_probes *p
     return PM_OK;
 }
 
-// --- a grid on a rectangle
-// ---------------------------------------------------------------------
+// --- a grid on a rectangle ------------------------------------------------------------------
 
 static pm_status find_rectangle(const char *program, const pm_options *options,
                                 const pm_scene *scene, const pm_shape **found)

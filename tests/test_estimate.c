@@ -173,8 +173,7 @@ static void scale_is_undone_exactly(void)
     pm_photon_map_free(&unit);
 }
 
-// --- radiance and volume
-// -----------------------------------------------------------------------
+// --- radiance and volume --------------------------------------------------------------------
 
 static void diffuse_radiance_is_albedo_over_pi(void)
 {

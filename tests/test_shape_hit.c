@@ -5,8 +5,7 @@
 #include "shapes.h"
 #include "test.h"
 
-// --- hits against naive formulas
-// -----------------------------------------------------------------
+// --- hits against naive formulas ------------------------------------------------------------
 
 typedef struct {
     long double x, y, z;

@@ -7,7 +7,6 @@
 #include "world.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 
 static const pm_options_program program = {
     .name = "tracing",
@@ -31,34 +30,56 @@ typedef struct {
     pm_path_dump dump;
 } pm_job;
 
-// --- one photon, event by event
-// ------------------------------------------------------------------
+// --- one photon, event by event -------------------------------------------------------------
 
-static void print_event(void *context, const pm_start *start, const pm_event *event)
+/// What --photon shows: lines for people, or a list for --json and --report.
+typedef struct {
+    const pm_job *job;
+    json_t *events;
+} pm_replay;
+
+static const char *happened(const pm_event *event)
 {
-    const pm_job *job = context;
-    const pm_scene *scene = &job->world.scene;
+    switch (event->kind) {
+    case PM_EVENT_ESCAPED:
+        return "escapes";
+    case PM_EVENT_CUT:
+        return "is cut";
+    default:
+        return event->scatter == 'S'   ? "turns (specular)"
+               : event->scatter == 'D' ? "turns (diffuse)"
+                                       : "is absorbed";
+    }
+}
+
+static void show_event(void *context, const pm_start *start, const pm_event *event)
+{
+    pm_replay *replay = context;
+    const pm_scene *scene = &replay->job->world.scene;
+    double scale = 1.0 / (double)replay->job->settings.count;
     const char *shape = event->hit == NULL ? "-" : scene->shapes[event->hit->shape].id;
-    static const char *const kinds[] = {"", "", "escapes", "is cut", "is done"};
-    const char *what = event->kind > PM_EVENT_MEDIUM ? kinds[event->kind]
-                       : event->scatter == 'S'       ? "turns (specular)"
-                       : event->scatter == 'D'       ? "turns (diffuse)"
-                                                     : "is absorbed";
     pm_vec3 at = pm_vec_add(event->position, scene->center);
-    pm_spectrum watts = pm_spectrum_scale(event->arriving, 1.0 / (double)job->settings.count);
-    (void)start;
-    printf("%4u  %-18s %-16s at %10.6g %10.6g %10.6g  with %.6g %.6g %.6g W\n", event->bounce,
-           what, shape, at.x, at.y, at.z, watts.c[0], watts.c[1], watts.c[2]);
+    pm_spectrum in = pm_spectrum_scale(event->arriving, scale);
+    bool lines = !replay->job->options->json;
+    if (lines && event->bounce == 0) {
+        printf("photon %llu leaves %s\n", (unsigned long long)start->photon,
+               scene->lights[start->light].id);
+    }
+    if (lines) {
+        printf("%4u  %-18s %-16s at %10.6g %10.6g %10.6g  with %.6g %.6g %.6g W\n",
+               event->bounce, happened(event), shape, at.x, at.y, at.z, in.c[0], in.c[1],
+               in.c[2]);
+    }
+    json_t *entry = json_pack("{s:i,s:s,s:s}", "bounce", (int)event->bounce, "event",
+                              happened(event), "shape", shape);
+    entry = pm_report_add(entry, "position", pm_report_vector(at));
+    entry = pm_report_add(entry, "arriving", pm_report_spectrum(in));
+    entry = pm_report_add(entry, "carried",
+                          pm_report_spectrum(pm_spectrum_scale(event->carried, scale)));
+    json_array_append_new(replay->events, entry);
 }
 
-static pm_status ignore_deposit(void *context, const pm_deposit *deposit)
-{
-    (void)context;
-    (void)deposit;
-    return PM_OK;
-}
-
-static pm_status replay(pm_job *job)
+static pm_status replay(const pm_job *job)
 {
     const pm_options *options = job->options;
     if (options->photon >= job->settings.count) {
@@ -66,36 +87,21 @@ static pm_status replay(pm_job *job)
                               (unsigned long long)job->settings.count,
                               (unsigned long long)options->photon);
     }
-    uint64_t *share = calloc((size_t)job->world.scene.light_count, sizeof *share);
-    if (share == NULL) {
-        return PM_FAIL(PM_ENOMEM, "no memory for the lights");
+    pm_replay shown = {job, json_array()};
+    pm_trace_sink sink = {.context = &shown, .event = show_event};
+    uint32_t light;
+    pm_status status = pm_photon_replay(&job->world.rays, PM_MAP_GLOBAL, &job->settings,
+                                        options->photon, &sink, &light);
+    if (status != PM_OK) {
+        json_decref(shown.events);
+        return status;
     }
-    pm_rng_source source = {options->seed, PM_STREAM_GLOBAL, 0};
-    pm_emission emission = {&job->world.scene, source, job->settings.count, share, NULL};
-    pm_tracing tracing = {
-        .world = &job->world.rays,
-        .source = source,
-        .rule = options->roulette,
-        .sink = {job, ignore_deposit, print_event},
-    };
-    pm_photon_pass_caps(&job->world.scene, options->max_bounces, &tracing.max_bounces,
-                        &tracing.max_specular);
-    pm_start start;
-    pm_status status = pm_emit_share(&job->world.scene, job->settings.count, share);
-    if (status == PM_OK) {
-        status = pm_emit_photons(&emission, options->photon, 1, &start);
-    }
-    free(share);
-    if (status == PM_OK) {
-        printf("photon %llu leaves %s\n", (unsigned long long)options->photon,
-               job->world.scene.lights[start.light].id);
-        status = pm_trace_photons(&tracing, &start, 1);
-    }
-    return status;
+    const char *id = job->world.scene.lights[light].id;
+    json_t *object = json_pack("{s:I,s:s}", "photon", (json_int_t)options->photon, "light", id);
+    return pm_report_end(options, pm_report_add(object, "events", shown.events));
 }
 
-// --- all of them
-// -----------------------------------------------------------------------------------
+// --- all of them ----------------------------------------------------------------------------
 
 static json_t *bounces(const pm_audit *audit)
 {

@@ -47,8 +47,7 @@ typedef struct {
     losses packing;
 } pm_job;
 
-// --- what packing costs
-// --------------------------------------------------------------------------
+// --- what packing costs ---------------------------------------------------------------------
 
 static void compare(const pm_photon_view *exact, const pm_photon_view *packed, losses *sum)
 {
@@ -86,8 +85,7 @@ static void drop_exact(pm_photon_map *map)
     map->unpacked = false;
 }
 
-// --- making maps
-// ---------------------------------------------------------------------------------
+// --- making maps ----------------------------------------------------------------------------
 
 static pm_status make_map(pm_job *job, pm_map_kind kind)
 {
@@ -122,8 +120,7 @@ static pm_status make_maps(pm_job *job)
     return PM_OK;
 }
 
-// --- files
-// ---------------------------------------------------------------------------------------
+// --- files ----------------------------------------------------------------------------------
 
 /// "a/b.ply" becomes "a/b.caustic.ply".
 static char *name_beside(const char *path, const char *kind)
@@ -166,8 +163,7 @@ static pm_status write_maps(const pm_job *job)
     return PM_OK;
 }
 
-// --- reporting
-// -----------------------------------------------------------------------------------
+// --- reporting ------------------------------------------------------------------------------
 
 static int bytes_per_photon(const pm_job *job)
 {
@@ -248,8 +244,7 @@ static pm_status report(const pm_job *job)
     return pm_report_end(job->options, object);
 }
 
-// --- the two jobs
-// --------------------------------------------------------------------------------
+// --- the two jobs ---------------------------------------------------------------------------
 
 static pm_status check_file(pm_job *job)
 {

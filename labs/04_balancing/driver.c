@@ -40,8 +40,7 @@ typedef struct {
     double build_s, query_s;            // CPU
 } pm_job;
 
-// --- the tree that grows by itself
-// -------------------------------------------------------------
+// --- the tree that grows by itself ----------------------------------------------------------
 
 typedef struct {
     const pm_photon *photons;
@@ -186,8 +185,7 @@ static pm_status measure_grown(pm_job *job, const grown_tree *tree)
     return made ? PM_OK : PM_FAIL(PM_ENOMEM, "no memory to search for %u photons", settings->k);
 }
 
-// --- the balanced tree
-// -------------------------------------------------------------------------
+// --- the balanced tree ----------------------------------------------------------------------
 
 static pm_status measure_balanced(pm_job *job)
 {
@@ -212,8 +210,7 @@ static pm_status measure_balanced(pm_job *job)
     return status;
 }
 
-// --- the job
-// -------------------------------------------------------------------------------------
+// --- the job --------------------------------------------------------------------------------
 
 static pm_status choose_queries(pm_job *job)
 {

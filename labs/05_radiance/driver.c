@@ -42,8 +42,7 @@ typedef struct {
     pm_file dump;
 } pm_job;
 
-// --- estimating
-// ----------------------------------------------------------------------------------
+// --- estimating -----------------------------------------------------------------------------
 
 /// @source Welford, Technometrics 4(3), 1962: no difference of large sums
 static void add(tally *point, const pm_estimate *estimate)
@@ -110,8 +109,7 @@ static pm_status estimate_runs(pm_job *job)
     return PM_OK;
 }
 
-// --- results
-// ---------------------------------------------------------------------------------------
+// --- results --------------------------------------------------------------------------------
 
 /// Standard deviation of one run; for two runs and more.
 static pm_spectrum deviation_of(const tally *point)

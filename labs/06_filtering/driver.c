@@ -47,8 +47,7 @@ typedef struct {
     tally rows[ROWS];
 } pm_job;
 
-// --- estimating
-// ----------------------------------------------------------------------------------
+// --- estimating -----------------------------------------------------------------------------
 
 static void add(tally *row, const pm_estimate *estimate)
 {
@@ -141,8 +140,7 @@ static pm_status estimate_runs(pm_job *job)
     return PM_OK;
 }
 
-// --- results
-// ---------------------------------------------------------------------------------------
+// --- results --------------------------------------------------------------------------------
 
 static const char *name_of(int row)
 {
@@ -232,8 +230,7 @@ static pm_status report(const pm_job *job)
     return pm_report_end(job->options, object);
 }
 
-// --- the job
-// -------------------------------------------------------------------------------------
+// --- the job --------------------------------------------------------------------------------
 
 static pm_status make_room(pm_job *job)
 {
