@@ -18,7 +18,7 @@ typedef struct {
     float low[3], high[3];
 } box;
 
-// --- building --------------------------------------------------------------------------------
+// --- building -------------------------------------------------------------------------------
 
 uint32_t pm_balance_left(uint32_t count)
 {
@@ -175,7 +175,7 @@ pm_status pm_balance_build(pm_photon_map *map)
     return PM_OK;
 }
 
-// --- searching -------------------------------------------------------------------------------
+// --- searching ------------------------------------------------------------------------------
 
 /// The candidates of one search: a plain list until k are held, then a max-heap.
 typedef struct {

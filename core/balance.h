@@ -43,9 +43,8 @@ pm_status pm_balance_build(pm_photon_map *map);
 ///                 the farthest
 /// @param found    [out]
 /// @param visited  [in, out] incremented by the tree nodes looked at; may be NULL
-/// @return PM_EINPUT when the map is not balanced (an empty one need not be), k is 0, radius2
-/// is
-///         not positive or `at` not finite
+/// @return PM_EINPUT when the map is not balanced (an empty one need not be), k is 0, `at` is
+///         not finite or radius2 not positive
 pm_status pm_balance_nearest(const pm_photon_map *map, const pm_search *search,
                              pm_neighbour *nearest, uint32_t *found, uint64_t *visited);
 

@@ -133,7 +133,7 @@ static pm_status search(const pm_photon_map *map, const pm_estimate_settings *se
     return PM_OK;
 }
 
-// --- sums ------------------------------------------------------------------------------------
+// --- sums -----------------------------------------------------------------------------------
 
 /// A photon's share by direction: bsdf, phase function, or 1.
 typedef pm_spectrum (*response_fn)(const void *context, const pm_photon_view *photon);
@@ -224,7 +224,7 @@ pm_status pm_estimate_radiance(const pm_photon_map *map, const pm_estimate_setti
     return estimate_surface(map, settings, point, reflected, lobes, scratch, out);
 }
 
-// --- volume ----------------------------------------------------------------------------------
+// --- volume ---------------------------------------------------------------------------------
 
 typedef struct {
     const pm_medium *medium;

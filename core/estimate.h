@@ -63,9 +63,8 @@ bool pm_estimate_accept(const void *context, const pm_photon *photon, double *di
 /// @param map      balanced and scaled; read only, may be shared by threads
 /// @param scratch  room for k, owned by the caller
 /// @param out      [out] untouched unless PM_OK; value 0 when no photon is in reach
-/// @return PM_EINPUT when the map is not balanced or not scaled, k is 0, the radius not
-/// positive
-///         or the flatness not in (0, 1]
+/// @return PM_EINPUT when the map is not balanced or not scaled, k is 0, the radius is not
+///         positive or the flatness not in (0, 1]
 /// @source Jensen 2001, ch. 7; the (k-1) form: Garcia et al., CGF 31(1), 2012
 pm_status pm_estimate_irradiance(const pm_photon_map *map, const pm_estimate_settings *settings,
                                  const pm_estimate_point *point, pm_neighbour *scratch,

@@ -23,7 +23,7 @@ static pm_status make_room(pm_probes *probes, uint64_t count)
     return PM_OK;
 }
 
-// --- one point -------------------------------------------------------------------------------
+// --- one point ------------------------------------------------------------------------------
 
 static pm_status from_options(const char *program, const pm_options *options,
                               const pm_scene *scene, pm_probes *probes)
@@ -39,7 +39,7 @@ static pm_status from_options(const char *program, const pm_options *options,
     return PM_OK;
 }
 
-// --- a file of points ------------------------------------------------------------------------
+// --- a file of points -----------------------------------------------------------------------
 
 /// What is wrong with a line, or NULL.
 static const char *read_line(const char *line, const pm_scene *scene, pm_estimate_point *point)

@@ -16,7 +16,7 @@
 #define EXPONENT_MAX 127    // stored as 255
 #define EXPONENT_MIN (-127) // stored as 1; 0 is kept for black
 
-// --- decoded directions, worked out by the compiler ----------------------------------------
+// --- decoded directions, worked out by the compiler -----------------------------------------
 
 // Taylor polynomials, good to 1e-14 for |x| <= pi; arguments below are moved into that range.
 #define STEP(x, n, rest) (1.0 - (x) * (x) / ((n) * ((n) + 1.0)) * (rest))
@@ -52,7 +52,7 @@
 static const double theta_table[BINS][2] = {ALL(COS_SIN_THETA)};
 static const double phi_table[BINS][2] = {ALL(COS_SIN_PHI)};
 
-// --- power -----------------------------------------------------------------------------------
+// --- power ----------------------------------------------------------------------------------
 
 static int pack_power(pm_spectrum power, uint8_t bytes[4])
 {
@@ -84,7 +84,7 @@ static pm_spectrum unpack_power(const uint8_t bytes[4])
     return power;
 }
 
-// --- direction -------------------------------------------------------------------------------
+// --- direction ------------------------------------------------------------------------------
 
 /// The bin of `angle` in [0, range], the last one for its end.
 static uint8_t bin_of(double angle, double range)
@@ -108,7 +108,7 @@ static pm_vec3 unpack_direction(const uint8_t bytes[2])
     return pm_vec(theta[1] * phi[0], theta[1] * phi[1], theta[0]);
 }
 
-// --- whole photons ---------------------------------------------------------------------------
+// --- whole photons --------------------------------------------------------------------------
 
 static bool is_finite(pm_vec3 v)
 {

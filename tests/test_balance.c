@@ -21,7 +21,7 @@ static pm_photon_map tree_of(pm_cloud_kind kind, uint32_t count, double scale)
     return map;
 }
 
-// --- shape -----------------------------------------------------------------------------------
+// --- shape ----------------------------------------------------------------------------------
 
 /// Nodes below `node` of a heap of `count`, itself included.
 static uint32_t heap_size(uint32_t node, uint32_t count)
@@ -142,7 +142,7 @@ static void no_input_builds_quadratically(void)
     }
 }
 
-// --- searches --------------------------------------------------------------------------------
+// --- searches -------------------------------------------------------------------------------
 
 static double distance2_of(const pm_photon *photon, pm_vec3 at)
 {
@@ -307,7 +307,7 @@ static void scale_changes_nothing(void)
     }
 }
 
-// --- cost ------------------------------------------------------------------------------------
+// --- cost -----------------------------------------------------------------------------------
 
 static double visited_mean(pm_cloud_kind kind, uint32_t count, uint32_t k)
 {
@@ -366,7 +366,7 @@ static void threads_do_not_meet(void)
     pm_photon_map_free(&map);
 }
 
-// --- refusals --------------------------------------------------------------------------------
+// --- refusals -------------------------------------------------------------------------------
 
 static void photons_nowhere_are_refused(void)
 {

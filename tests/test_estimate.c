@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-// --- few photons -----------------------------------------------------------------------------
+// --- few photons ----------------------------------------------------------------------------
 
 static void few_photons_by_hand(void)
 {
@@ -73,7 +73,7 @@ static void coincident_photons_stay_finite(void)
     }
 }
 
-// --- sides and shapes ------------------------------------------------------------------------
+// --- sides and shapes -----------------------------------------------------------------------
 
 static void sides_are_told_by_normals(void)
 {
@@ -238,7 +238,7 @@ static void media_scatter_by_their_phase_function(void)
     pm_photon_map_free(&map);
 }
 
-// --- refusals --------------------------------------------------------------------------------
+// --- refusals -------------------------------------------------------------------------------
 
 static void refuse(const pm_photon_map *map, pm_estimate_settings settings, const char *why)
 {

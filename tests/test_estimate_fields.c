@@ -28,7 +28,7 @@ static pm_moments ask_even(const pm_estimate_settings *settings, int trials, boo
     return pm_fields_moments(sum, sum2, trials);
 }
 
-// --- even fields -----------------------------------------------------------------------------
+// --- even fields ----------------------------------------------------------------------------
 
 /// Mean square of weight over normalisation, and the weight at the rim over normalisation.
 static void kernel_numbers(const pm_estimate_settings *s, double *mean, double *square,
@@ -97,8 +97,8 @@ static void the_lecture_is_off_as_published(void)
 
 static void a_reach_keeps_the_mean(void)
 {
-    // Between half and 16 photons expected in a reach for 8: few found, all count over the reach;
-    // 8 found, 7 over the eighth's disc. Both branches together have mean 1.
+    // Between half and 16 photons expected in a reach for 8: few found, all count over the
+    // reach; 8 found, 7 over the eighth's disc. Both branches together have mean 1.
     static const double expected[] = {0.5, 2.0, 8.0, 16.0};
     for (int i = 0; i < 4; i++) {
         for (pm_filter_kind filter = 0; filter < PM_FILTER_COUNT; filter++) {

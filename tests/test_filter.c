@@ -21,7 +21,7 @@ static double normalisation_of(pm_filter_kind kind, pm_filter_constants constant
     return normalisation;
 }
 
-// --- integrals -------------------------------------------------------------------------------
+// --- integrals ------------------------------------------------------------------------------
 
 typedef struct {
     pm_filter_kind kind;
@@ -105,7 +105,7 @@ static void wrong_filters_are_refused(void)
     CHECK(out == 42.0);
 }
 
-// --- differential checking -------------------------------------------------------------------
+// --- differential checking ------------------------------------------------------------------
 
 static uint32_t kept_of(const double *distance2, const double *power, uint32_t count,
                         uint32_t least)

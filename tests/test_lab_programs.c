@@ -52,7 +52,7 @@ static double channel(json_t *object, const char *name, size_t which)
     return json_number_value(json_array_get(key(object, name), which));
 }
 
-// --- storage ---------------------------------------------------------------------------------
+// --- storage --------------------------------------------------------------------------------
 
 static void storage_holds_the_power_of_the_globe(void)
 {
@@ -143,8 +143,7 @@ static void dumped_paths_belong_to_their_maps(void)
     CHECK(rows == (int)stored);
 }
 
-// --- balancing
-// ---------------------------------------------------------------------------------
+// --- balancing ------------------------------------------------------------------------------
 
 static void balancing_counts_its_looks(void)
 {
@@ -167,8 +166,7 @@ static void balanced_files_say_so(void)
     free(out);
 }
 
-// --- radiance and filtering
-// ----------------------------------------------------------------------
+// --- radiance and filtering -----------------------------------------------------------------
 
 static void radiance_meets_the_closed_form(void)
 {

@@ -104,7 +104,7 @@ static void power_is_summed_in_double(void)
     pm_photon_map_free(&map);
 }
 
-// --- coarse normals --------------------------------------------------------------------------
+// --- coarse normals -------------------------------------------------------------------------
 
 static pm_vec3 random_normal(uint64_t i)
 {

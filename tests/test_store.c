@@ -44,7 +44,7 @@ static pm_vec3 direction_back(pm_vec3 direction)
     return round_trip(&deposit, &fits).direction;
 }
 
-// --- power -----------------------------------------------------------------------------------
+// --- power ----------------------------------------------------------------------------------
 
 static void example_by_hand(void)
 {
@@ -118,7 +118,7 @@ static void range_of_power(void)
     CHECK(power_back(pm_gray(0.0), &fits).c[0] == 0.0 && fits == 0);
 }
 
-// --- direction -------------------------------------------------------------------------------
+// --- direction ------------------------------------------------------------------------------
 
 static pm_vec3 random_direction(pm_rng *rng)
 {
@@ -203,7 +203,7 @@ static void directions_at_the_rims(void)
     }
 }
 
-// --- refusals --------------------------------------------------------------------------------
+// --- refusals -------------------------------------------------------------------------------
 
 static void wrong_deposits_are_refused(void)
 {
@@ -251,7 +251,7 @@ static void refused_deposits_are_counted(void)
     pm_photon_map_free(&map);
 }
 
-// --- the map ---------------------------------------------------------------------------------
+// --- the map --------------------------------------------------------------------------------
 
 static void map_grows_by_a_quarter(void)
 {
