@@ -34,7 +34,8 @@ static const char scene_text[] =
 typedef struct {
     png_image png;
     uint8_t *pixels; // RGB, rows from the top
-    json_t *camera;
+    json_t *answer;
+    json_t *camera; // of `answer`
     char note[512];
 } seen;
 
@@ -78,10 +79,10 @@ static seen look(const char *kind, const char *file, const char *option)
     pm_test_ran ran = run_view(kind, file, option);
     CHECK_THAT(ran.exit_code == 0, "view %s: exit %d: %s", kind, ran.exit_code, ran.err);
     CHECK_THAT(ran.err[0] == '\0', "view %s says on standard error: %s", kind, ran.err);
-    json_t *answer = json_loads(ran.out, 0, NULL);
-    CHECK_THAT(answer != NULL, "no JSON: %s", ran.out);
-    s.camera = json_object_get(answer, "camera");
-    snprintf(s.note, sizeof s.note, "%s", json_string_value(json_object_get(answer, "note")));
+    s.answer = json_loads(ran.out, 0, NULL);
+    CHECK_THAT(s.answer != NULL, "no JSON: %s", ran.out);
+    s.camera = json_object_get(s.answer, "camera");
+    snprintf(s.note, sizeof s.note, "%s", json_string_value(json_object_get(s.answer, "note")));
     s.png.version = PNG_IMAGE_VERSION;
     CHECK(png_image_begin_read_from_file(&s.png, at("out.png")) != 0);
     s.png.format = PNG_FORMAT_RGB;
@@ -90,6 +91,12 @@ static seen look(const char *kind, const char *file, const char *option)
     CHECK(s.pixels != NULL && png_image_finish_read(&s.png, NULL, s.pixels, 0, NULL) != 0);
     pm_test_ran_free(&ran);
     return s;
+}
+
+static void forget(seen *s)
+{
+    json_decref(s->answer);
+    free(s->pixels);
 }
 
 static double number(const json_t *camera, const char *key, size_t index)
@@ -166,6 +173,8 @@ static void photon_lights_its_pixel(void)
     CHECK_COLOUR(pixel(&there, elsewhere[0]), 255.0, 0.0, 0.0, 2.0);
     CHECK(pixel(&there, place[0])[0] < 100);
     CHECK(pixel(&here, elsewhere[0])[0] < 100);
+    forget(&here);
+    forget(&there);
 }
 
 static void counts_are_the_files(void)
@@ -175,6 +184,8 @@ static void counts_are_the_files(void)
     CHECK_CONTAINS(s.note, "global map: 3 stored of 1,234 emitted");
     seen none = look("photons", write_map("none.ply", places, 0, pm_gray(1.0), false), NULL);
     CHECK_CONTAINS(none.note, "global map: 0 stored of 1,234 emitted");
+    forget(&s);
+    forget(&none);
 }
 
 /// Five photons whose box is longest in y. A left-balanced tree of five has three on the left
@@ -200,6 +211,8 @@ static void split_plane_is_seen(void)
                "green %d with the plane, %d without: the translucent "
                "plane is not drawn",
                with[1], without[1]);
+    forget(&tree);
+    forget(&photons);
 }
 
 static void tree_needs_balance(void)
@@ -233,6 +246,8 @@ static void paths_have_the_colour_of_their_event(void)
                sky[1], sky[2]);
     seen one = look("paths", csv, "--paths=1");
     CHECK_CONTAINS(one.note, "1 of 2 paths drawn");
+    forget(&s);
+    forget(&one);
 }
 
 /// Irradiance 0, 1, 10 and 100 in the four corners of a grid in front of the back wall.
@@ -255,6 +270,7 @@ static void irradiance_has_the_colour_of_its_value(void)
     CHECK_COLOUR(pixel(&s, pm_vec(5.25, 4.75, 4.6)), 0.0, 0.0, 4.0, 3.0);
     CHECK_COLOUR(pixel(&s, pm_vec(4.75, 5.25, 4.6)), 188.0, 55.0, 84.0, 3.0);
     CHECK_COLOUR(pixel(&s, pm_vec(5.25, 5.25, 4.6)), 252.0, 255.0, 164.0, 3.0);
+    forget(&s);
 }
 
 static void check_refused(const char *kind, const char *file, const char *part)
@@ -356,6 +372,7 @@ static void no_display_is_needed(void)
     CHECK(memcmp(pixels, without.pixels, PNG_IMAGE_SIZE(dead)) == 0);
     free(pixels);
     pm_test_ran_free(&ran);
+    forget(&without);
 }
 
 PM_TESTS({"view.1", "a photon lights its own pixel, in its colour", photon_lights_its_pixel},
