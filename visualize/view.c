@@ -214,12 +214,14 @@ static pm_status draw_irradiance(picture *p)
         fewest = grid.points[i].found < fewest ? grid.points[i].found : fewest;
         most = grid.points[i].found > most ? grid.points[i].found : most;
     }
-    add_note(
-        p,
-        "light arriving on a square metre, estimated from the photons nearest to each point\n"
-        "%llu x %llu points, %llu to %llu photons each",
-        (unsigned long long)grid.columns, (unsigned long long)grid.rows,
-        (unsigned long long)fewest, (unsigned long long)most);
+    add_note(p,
+             "light arriving on a square metre, estimated from the photons nearest to each "
+             "point\n%llu x %llu points, ",
+             (unsigned long long)grid.columns, (unsigned long long)grid.rows);
+    if (fewest < most) {
+        add_note(p, "%llu to ", (unsigned long long)fewest);
+    }
+    add_note(p, "%llu photons each", (unsigned long long)most);
     pm_status status = pm_draw_irradiance(p->figure, &grid);
     pm_grid_file_free(&grid);
     return status;
