@@ -1,31 +1,25 @@
-// The second half of a picture: eye rays, tile by tile. A pixel depends on nothing but its own
-// random numbers and the maps, so tiles may be dealt to any thread.
+// The second half of a picture: eye rays. A pixel depends on nothing but its own random numbers
+// and the maps, so tiles may be dealt to any thread.
 #include "render.h"
 
 #include "camera.h"
 #include "clock.h"
-#include "interrupt.h"
 #include "lattice.h"
 #include "photon_dots.h"
 #include "pixel.h"
-#include "progress.h"
+#include "tiles.h"
 
 #include <stdlib.h>
-#include <string.h>
 
-#define TILE 16
 #define SPLITS 2 // S events of an eye path at which reflection and refraction are both followed
 
+/// What all threads share.
 typedef struct {
     const pm_intersector *world;
     const pm_render_settings *settings;
     const pm_render_maps *maps;
     pm_picture picture;
-    int tiles_x, tiles_y;
     pm_eye_report *report;
-    pm_progress progress;
-    pm_status status;
-    char message[1024];
 } pm_eye_pass;
 
 /// What one thread asks with.
@@ -43,28 +37,51 @@ static void choose_layers(const pm_render_settings *settings, bool wanted[PM_LAY
     }
 }
 
-static pm_status worker_make(const pm_eye_pass *pass, pm_eye_worker *worker)
+static void worker_set_up(const pm_eye_pass *pass, pm_eye_worker *worker)
 {
     const pm_render_settings *settings = pass->settings;
     uint32_t unused;
-    *worker = (pm_eye_worker){
-        .compose = {.world = pass->world,
-                    .source = {settings->seed, PM_STREAM_CAMERA, 0},
-                    .rule = settings->roulette,
-                    .splits = SPLITS},
-        .gather = {.settings = settings->light},
-    };
+    worker->compose.world = pass->world;
+    worker->compose.source = (pm_rng_source){settings->seed, PM_STREAM_CAMERA, 0};
+    worker->compose.rule = settings->roulette;
+    worker->compose.splits = SPLITS;
     pm_photon_pass_caps(pass->world->scene, settings->max_bounces, &unused,
                         &worker->compose.max_specular);
     choose_layers(settings, worker->compose.wanted);
+    worker->gather.settings = settings->light;
     for (int kind = 0; kind < PM_MAP_COUNT; kind++) {
         worker->gather.map[kind] = pass->maps->has[kind] ? &pass->maps->map[kind] : NULL;
     }
-    worker->gather.scratch = calloc(settings->light.estimate.k, sizeof *worker->gather.scratch);
-    if (worker->gather.scratch == NULL) {
-        return PM_FAIL(PM_ENOMEM, "no memory for %u neighbours", settings->light.estimate.k);
+    pm_gather_sources(&worker->gather, &worker->compose);
+}
+
+static pm_status worker_begin(const void *context, void **out)
+{
+    const pm_eye_pass *pass = context;
+    uint32_t k = pass->settings->light.estimate.k;
+    pm_eye_worker *worker = calloc(1, sizeof *worker);
+    *out = worker;
+    if (worker != NULL) {
+        worker->gather.scratch = calloc(k, sizeof *worker->gather.scratch);
     }
+    if (worker == NULL || worker->gather.scratch == NULL) {
+        return PM_FAIL(PM_ENOMEM, "no memory for %u neighbours", k);
+    }
+    worker_set_up(pass, worker);
     return PM_OK;
+}
+
+static void worker_end(void *context, void *given)
+{
+    const pm_eye_pass *pass = context;
+    pm_eye_worker *worker = given;
+    if (worker == NULL) {
+        return;
+    }
+    pass->report->cut += worker->cut + worker->gather.cut;
+    pass->report->lookups += worker->lookups;
+    free(worker->gather.scratch);
+    free(worker);
 }
 
 /// Adds one eye sample to a pixel's sums.
@@ -93,8 +110,10 @@ static void finish_pixel(pm_pixel *pixel, const pm_gather *gather, uint32_t spp,
     }
 }
 
-static pm_status render_pixel(const pm_eye_pass *pass, pm_eye_worker *worker, int x, int y)
+static pm_status render_pixel(const void *context, void *given, int x, int y)
 {
+    const pm_eye_pass *pass = context;
+    pm_eye_worker *worker = given;
     const pm_camera *camera = &pass->world->scene->camera;
     uint64_t index = (uint64_t)y * (uint64_t)camera->width + (uint64_t)x;
     uint32_t spp = pass->settings->light.spp;
@@ -123,72 +142,19 @@ static pm_status render_pixel(const pm_eye_pass *pass, pm_eye_worker *worker, in
     return PM_OK;
 }
 
-static pm_status render_tile(const pm_eye_pass *pass, pm_eye_worker *worker, int tile)
-{
-    const pm_camera *camera = &pass->world->scene->camera;
-    int left = tile % pass->tiles_x * TILE;
-    int top = tile / pass->tiles_x * TILE;
-    for (int y = top; y < top + TILE && y < camera->height; y++) {
-        for (int x = left; x < left + TILE && x < camera->width; x++) {
-            PM_TRY(render_pixel(pass, worker, x, y));
-        }
-    }
-    return pm_interrupt_check();
-}
-
-static void tile_done(pm_eye_pass *pass, pm_status status)
-{
-    pm_progress_add(&pass->progress, 1);
-    if (status != PM_OK && pass->status == PM_OK) {
-        pass->status = status;
-        strncpy(pass->message, pm_status_message(), sizeof pass->message - 1);
-    }
-}
-
-static void run_tiles(pm_eye_pass *pass)
-{
-    int tiles = pass->tiles_x * pass->tiles_y;
-#pragma omp parallel
-    {
-        pm_eye_worker worker;
-        pm_status made = worker_make(pass, &worker);
-        if (made == PM_OK) {
-            pm_gather_sources(&worker.gather, &worker.compose);
-        }
-#pragma omp for schedule(dynamic, 1)
-        for (int tile = 0; tile < tiles; tile++) {
-            pm_status seen;
-#pragma omp atomic read
-            seen = pass->status;
-            if (seen == PM_OK) {
-                pm_status status = made == PM_OK ? render_tile(pass, &worker, tile) : made;
-#pragma omp critical
-                tile_done(pass, status);
-            }
-        }
-#pragma omp critical
-        {
-            pass->report->cut += worker.cut + worker.gather.cut;
-            pass->report->lookups += worker.lookups;
-        }
-        free(worker.gather.scratch);
-    }
-}
-
 static pm_status run_eye_pass(pm_eye_pass *pass)
 {
     const pm_camera *camera = &pass->world->scene->camera;
-    pass->tiles_x = (camera->width + TILE - 1) / TILE;
-    pass->tiles_y = (camera->height + TILE - 1) / TILE;
-    pass->progress =
-        pm_progress_begin("rendering", (uint64_t)pass->tiles_x * (uint64_t)pass->tiles_y);
-    run_tiles(pass);
-    pm_progress_end(&pass->progress);
-    if (pass->status != PM_OK) {
-        pm_status_clear();
-        return pm_status_fail(pass->status, "%s", pass->message);
-    }
-    return PM_OK;
+    pm_tiles tiles = {
+        .what = "rendering",
+        .width = camera->width,
+        .height = camera->height,
+        .context = pass,
+        .begin = worker_begin,
+        .pixel = render_pixel,
+        .end = worker_end,
+    };
+    return pm_tiles_run(&tiles);
 }
 
 pm_status pm_render_image(const pm_intersector *world, const pm_render_settings *settings,
