@@ -6,6 +6,7 @@
 // @source Jensen 2001, ch. 7; Garcia et al., CGF 31(1), 2012, for the (k-1) form
 #include "estimate.h"
 
+#include "coarse_normal.h"
 #include "photon_map.h"
 #include "store.h"
 

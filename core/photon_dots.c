@@ -4,6 +4,7 @@
 
 #include "camera.h"
 #include "interrupt.h"
+#include "map_power.h"
 #include "photon_map.h"
 #include "store.h"
 
@@ -55,7 +56,7 @@ static void draw(const pm_intersector *world, const pm_photon_view *photon, doub
 static pm_status draw_map(const pm_intersector *world, const pm_photon_map *map,
                           bool skip_caustic, const pm_picture *picture)
 {
-    double mean = pm_spectrum_mean(pm_photon_map_power(map)) / map->count;
+    double mean = pm_spectrum_mean(pm_map_power(map)) / map->count;
     for (uint32_t i = 0; i < map->count && mean > 0.0; i++) {
         pm_photon_view photon = pm_store_unpack(map, i);
         if (!(skip_caustic && photon.caustic)) {

@@ -27,16 +27,4 @@ uint64_t pm_photon_map_bytes(const pm_photon_map *map);
 /// Frees the photons; the map is empty and may be used again.
 void pm_photon_map_free(pm_photon_map *map);
 
-/// Total power of the map [W], summed in index order in double.
-pm_spectrum pm_photon_map_power(const pm_photon_map *map);
-
-/// A unit normal in 12 bits (octahedral, 6 + 6; axes are exact, others to 2.7 degrees) and
-/// back. Code 4095 stands for no normal, the zero vector.
-uint16_t pm_normal_encode(pm_vec3 normal);
-pm_vec3 pm_normal_decode(uint16_t code);
-
-/// Whether the cosine between a coded normal and the unit `direction` is at least `least`; no
-/// normal always is. Cheaper than decoding.
-bool pm_normal_within(uint16_t code, pm_vec3 direction, double least);
-
 #endif

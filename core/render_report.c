@@ -1,6 +1,7 @@
 // Power is shown as the mean of the three channels; the JSON has all three.
 #include "render_report.h"
 
+#include "map_power.h"
 #include "photon_map.h"
 #include "report.h"
 
@@ -111,7 +112,7 @@ static void print_map(const pm_scene *scene, const pm_render_maps *maps, int kin
 {
     const pm_pass_report *pass = &maps->pass[kind];
     const pm_photon_map *map = &maps->map[kind];
-    pm_spectrum power = pm_photon_map_power(map);
+    pm_spectrum power = pm_map_power(map);
     if (pass->emitted > 0) {
         pm_spectrum flux = pm_gray(0.0);
         for (int i = 0; i < scene->light_count; i++) {

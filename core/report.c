@@ -2,6 +2,7 @@
 #include "report.h"
 
 #include "file.h"
+#include "map_power.h"
 #include "photon_map.h"
 
 json_t *pm_report_add(json_t *object, const char *key, json_t *value)
@@ -111,7 +112,7 @@ json_t *pm_report_map(const pm_photon_map *map)
 {
     json_t *object = json_pack("{s:I,s:I}", "emitted", (json_int_t)map->emitted, "stored",
                                (json_int_t)map->count);
-    object = pm_report_add(object, "power", pm_report_spectrum(pm_photon_map_power(map)));
+    object = pm_report_add(object, "power", pm_report_spectrum(pm_map_power(map)));
     object = pm_report_add(object, "refused", json_integer((json_int_t)map->refused));
     object = pm_report_add(object, "clamped", json_integer((json_int_t)map->clamped));
     object = pm_report_add(object, "vanished", json_integer((json_int_t)map->vanished));

@@ -7,6 +7,7 @@
 // @source Ward, "Real Pixels", Graphics Gems II, 1991; Jensen 2001, ch. 6
 #include "store.h"
 
+#include "coarse_normal.h"
 #include "photon_map.h"
 
 #include <stddef.h>

@@ -3,6 +3,7 @@
 #include "balance.h"
 #include "chance.h"
 #include "estimate.h"
+#include "map_power.h"
 #include "photon_map.h"
 #include "photon_pass.h"
 #include "scenes.h"
@@ -83,7 +84,7 @@ static void photons_meet_walls_as_often_as_albedo_says(void)
     double hits = 1.0 / rest;
     double bound = pm_chance_bound(sphere_albedo / (rest * rest), SPHERE_PHOTONS);
     CHECK_NEAR((double)map.count / SPHERE_PHOTONS, hits, bound);
-    pm_spectrum power = pm_photon_map_power(&map);
+    pm_spectrum power = pm_map_power(&map);
     CHECK_NEAR(power.c[0], sphere_flux * hits, sphere_flux * bound);
     CHECK_NEAR(power.c[0], report.deposited.c[0], 1e-5 * power.c[0]); // floats in the map
     CHECK_NEAR(report.audit.escaped.c[0], 0.0, 0.0);
@@ -157,7 +158,7 @@ static void square_light_lights_the_floor(void)
     double share = 0.199825;
     CHECK_NEAR((double)map.count / PHOTONS, share,
                pm_chance_bound(share * (1.0 - share), PHOTONS) + 5e-7);
-    CHECK_NEAR(pm_photon_map_power(&map).c[1], 2.0 * PM_PI * (double)map.count / PHOTONS, 1e-4);
+    CHECK_NEAR(pm_map_power(&map).c[1], 2.0 * PM_PI * (double)map.count / PHOTONS, 1e-4);
 
     pm_estimate_settings settings = pm_estimate_defaults();
     settings.k = PHOTONS;

@@ -1,4 +1,5 @@
 // Estimates case by case: few photons by hand, sides, shapes, scales, media, refusals.
+#include "coarse_normal.h"
 #include "fields.h"
 #include "photon_map.h"
 #include "store.h"

@@ -1,4 +1,6 @@
 // Maps as containers, and the coarse normals of photons.
+#include "coarse_normal.h"
+#include "map_power.h"
 #include "photon_map.h"
 #include "rng.h"
 #include "store.h"
@@ -98,9 +100,9 @@ static void power_is_summed_in_double(void)
     for (int i = 0; i < 1000; i++) {
         push(&map, 0.0, 1.0);
     }
-    CHECK_NEAR(pm_photon_map_power(&map).c[1], 0x1p24 + 1000.0, 0.0);
+    CHECK_NEAR(pm_map_power(&map).c[1], 0x1p24 + 1000.0, 0.0);
     CHECK_OK(pm_store_scale(&map, 1000));
-    CHECK_NEAR(pm_photon_map_power(&map).c[1], (0x1p24 + 1000.0) / 1000.0, 1e-9);
+    CHECK_NEAR(pm_map_power(&map).c[1], (0x1p24 + 1000.0) / 1000.0, 1e-9);
     pm_photon_map_free(&map);
 }
 

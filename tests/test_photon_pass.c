@@ -3,6 +3,7 @@
 #include "photon_pass.h"
 
 #include "interrupt.h"
+#include "map_power.h"
 #include "photon_map.h"
 #include "scenes.h"
 #include "shapes.h"
@@ -142,7 +143,7 @@ static void books_match_the_scene(void)
     CHECK(report.emitted == COUNT && report.deposits == map.count && map.refused == 0);
     CHECK(report.share[0] + report.share[1] == COUNT);
     CHECK(map.scaled && map.capacity == map.count);
-    pm_spectrum stored = pm_photon_map_power(&map);
+    pm_spectrum stored = pm_map_power(&map);
     for (int c = 0; c < 3; c++) {
         double flux = s.lights[0].flux.c[c] + s.lights[1].flux.c[c];
         CHECK_NEAR(report.audit.emitted.c[c], flux, 1e-12 * flux);

@@ -1,6 +1,7 @@
 // storage: photons are packed into maps; what packing costs is measured, and the maps are
 // written as files or such a file is checked.
 #include "map_make.h"
+#include "map_power.h"
 #include "photon_dump.h"
 #include "photon_file.h"
 #include "photon_map.h"
@@ -196,7 +197,7 @@ static void print_table(const pm_job *job)
            "green [W]", "blue [W]");
     for (pm_map_kind kind = 0; kind < PM_MAP_COUNT; kind++) {
         const pm_photon_map *map = &job->map[kind];
-        pm_spectrum power = pm_photon_map_power(map);
+        pm_spectrum power = pm_map_power(map);
         if (job->has[kind]) {
             printf("%-8s %12llu %12u %12.6g %12.6g %12.6g\n", pm_map_name(kind),
                    (unsigned long long)map->emitted, map->count, power.c[0], power.c[1],
