@@ -44,6 +44,8 @@ pm_options pm_options_defaults(void)
         .spp = 4,
         .only = -1,
         .runs = 1,
+        .depth = 5,
+        .paths = 150,
         .tree = "balanced",
         .seed = 1,
     };

@@ -70,6 +70,11 @@ typedef struct {
     const char *title;
     const char *tree; // "balanced"
 
+    // view
+    const char *scene; // that the data came from
+    uint32_t depth;    // levels of a tree
+    uint32_t paths;    // drawn at most
+
     // compare
     bool no_mask, same;
     bool has_max_rel_mse;

@@ -15,7 +15,6 @@
 #include "program.h"
 #include "scene_read.h"
 #include "tree_split.h"
-#include "view_options.h"
 #include "viewpoint.h"
 
 #include <jansson.h>
@@ -33,7 +32,6 @@
 /// One picture on its way: what it is made from and of.
 typedef struct {
     const pm_options *options;
-    const pm_view_options *view;
     const char *const *files;
     int file_count;
     pm_scene scene;
@@ -160,7 +158,7 @@ static pm_status draw_paths(picture *p)
     char drawn[32];
     char all[32];
     PM_TRY(pm_path_file_read(p->files[0], &p->scene, &paths));
-    pm_status status = pm_draw_paths(p->figure, &paths, p->view->paths, &p->drawn);
+    pm_status status = pm_draw_paths(p->figure, &paths, p->options->paths, &p->drawn);
     add_note(p,
              "from the light until a surface absorbs them or they leave the scene\n"
              "%s of %s paths drawn",
@@ -174,7 +172,7 @@ static pm_status draw_splits(picture *p, const pm_photon_map *map)
     pm_tree_split_set tree;
     char count[32];
     char shown[32];
-    PM_TRY(pm_tree_split_make(map, p->files[0], p->view->depth, &tree));
+    PM_TRY(pm_tree_split_make(map, p->files[0], (int)p->options->depth, &tree));
     p->drawn = tree.count;
     add_note(
         p,
@@ -289,13 +287,10 @@ static pm_status check_files(const picture *p, const kind *k)
         return pm_status_fail(PM_EINPUT, "view: %s takes 1 to %d files, got %d", k->name,
                               k->files_most, p->file_count);
     }
-    if (p->view->scene == NULL) {
-        return pm_status_fail(PM_EINPUT, "view: --scene SCENE.xml is missing");
-    }
     return PM_OK;
 }
 
-static pm_status run(const pm_options *options, const pm_view_options *view)
+static pm_status run(const pm_options *options)
 {
     const kind *k = find_kind(options->positional[0]);
     if (k == NULL) {
@@ -304,11 +299,11 @@ static pm_status run(const pm_options *options, const pm_view_options *view)
             options->positional[0]);
     }
     picture p = {.options = options,
-                 .view = view,
                  .files = options->positional + 1,
                  .file_count = options->positional_count - 1};
     PM_TRY(check_files(&p, k));
-    PM_TRY(pm_scene_read(view->scene, options->define, options->define_count, false, &p.scene));
+    PM_TRY(
+        pm_scene_read(options->scene, options->define, options->define_count, false, &p.scene));
     pm_status status = make(&p, k);
     pm_figure_close(p.figure);
     for (int i = 0; i < p.cloud_count; i++) {
@@ -326,27 +321,19 @@ int main(int argc, char **argv)
         .positional = "KIND FILE...",
         .positional_least = 2,
         .positional_most = 1 + FILES_MAX,
-        .options = "o size title",
-        .needs = "o",
+        .options = "o scene depth paths size title",
+        .needs = "o scene",
         .notes =
             "KIND and its FILE: photons MAP.ply [MAP.ply ...], paths PATHS.csv (tracing "
             "--dump),\n"
-            "tree MAP.ply, irradiance GRID.csv (radiance --grid --dump). Also:\n"
-            "  --scene SCENE.xml  the scene that the data came from; needed\n"
-            "  --depth D          tree: levels drawn, 1..16, default 5\n"
-            "  --paths N          paths: drawn at most, default 150\n"
+            "tree MAP.ply, irradiance GRID.csv (radiance --grid --dump).\n"
             "The picture is 1200x900 unless --size says otherwise. --json prints the camera,\n"
             "so that a program can find the pixel of any point.",
     };
     pm_options options;
-    pm_view_options view;
     int code = 0;
-    pm_status status = pm_view_options_take(&argc, argv, &view);
-    if (status != PM_OK) {
-        return pm_program_end(status);
-    }
     if (!pm_program_start(argc, argv, &program, &options, &code)) {
         return code;
     }
-    return pm_program_end(run(&options, &view));
+    return pm_program_end(run(&options));
 }
