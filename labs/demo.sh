@@ -30,7 +30,7 @@ step "trace paths"
 
 step "estimate the irradiance of the floor"
 "$bin/radiance" $scene -n 200000 -k 100 --on floor --grid 128x128 --dump $out/floor.csv \
-    --report $out/floor.json >$out/floor.txt
+    >$out/floor.txt
 
 if [ -x "$bin/view" ]; then
     step "draw photons, paths, tree and irradiance"
