@@ -3,6 +3,7 @@
 #   make BUILD=build/mine BIN=build/mine/bin all    keeps a second build beside the first
 #   make SAN=1 test                                 address and undefined-behaviour sanitizers
 #   make ONLY=store test                            the tests whose tag begins so
+#   make V=1                                        whole commands instead of a line for each file
 
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
@@ -17,6 +18,7 @@ PREFIX ?= /usr
 SAN ?=
 WERROR ?=
 ONLY ?=
+V ?=
 JOBS ?= $(shell nproc 2>/dev/null || echo 1)
 BUILD := build/$(if $(SAN),san,ref)
 BIN := build/bin$(if $(SAN),-san)
@@ -85,6 +87,11 @@ COMPILE_CXX = $(CXX) $(CXXFLAGS) $(SPEAK_CXX) $(WARN) $(STRICTNESS)
 LINK = $(CC) -fopenmp $(SANITIZE) $(LDFLAGS)
 LINK_CXX = $(CXX) -fopenmp $(SANITIZE) $(LDFLAGS)
 
+# A recipe tells one short line and hides its command, unless V=1.
+SHOW := $(filter-out 0,$(V))
+HIDE := $(if $(SHOW),,@)
+tell = $(if $(SHOW),,@echo '$(1)')
+
 objects = $(patsubst %,$(BUILD)/%.o,$(basename $(1)))
 CORE := $(call objects,$(wildcard core/*.c))
 VISUALIZE := $(call objects,$(filter-out visualize/view.c,$(wildcard visualize/*.c)))
@@ -112,19 +119,23 @@ all: $(PROGRAMS) ## build the programs into build/bin
 
 $(LAB_PROGRAMS:%=$(BIN)/%): $(BIN)/%: $(BUILD)/$$(MAIN_%).o $(CORE)
 	@mkdir -p $(@D)
-	$(LINK) -o $@ $^ $(PART_LIBS)
+	$(call tell,link $@)
+	$(HIDE)$(LINK) -o $@ $^ $(PART_LIBS)
 
 $(BIN)/view: $(BUILD)/visualize/view.o $(VISUALIZE) $(VISUALIZE_VTK) $(CORE)
 	@mkdir -p $(@D)
-	$(LINK_CXX) -o $@ $^ $(VTK_LIBS) $(PART_LIBS)
+	$(call tell,link $@)
+	$(HIDE)$(LINK_CXX) -o $@ $^ $(VTK_LIBS) $(PART_LIBS)
 
 $(BUILD)/%.o: %.c $(BUILD)/flags | $(BUILD)/parts
 	@mkdir -p $(@D)
-	$(COMPILE_C) $(DEFINE) -c -o $@ $<
+	$(call tell,$(CC) $<)
+	$(HIDE)$(COMPILE_C) $(DEFINE) -c -o $@ $<
 
 $(BUILD)/%.o: %.cc $(BUILD)/flags | $(BUILD)/parts
 	@mkdir -p $(@D)
-	$(COMPILE_CXX) -c -o $@ $<
+	$(call tell,$(CXX) $<)
+	$(HIDE)$(COMPILE_CXX) -c -o $@ $<
 
 # Changes only when the compilers or their flags do; then everything is compiled anew.
 $(BUILD)/flags: FORCE
@@ -144,10 +155,12 @@ $(BUILD)/tests/test_runner.o: DEFINE = -DPM_TEST_ATTACKS='"$(abspath $(ATTACKS))
 $(TESTS): DEFINE += -Itests
 
 $(BUILD)/tests/run: $(RUNNER) $(TESTS) $(CORE) $(VISUALIZE)
-	$(LINK) -o $@ $(sort $^) $(PART_LIBS) $(GSL_LIBS)
+	$(call tell,link $@)
+	$(HIDE)$(LINK) -o $@ $(sort $^) $(PART_LIBS) $(GSL_LIBS)
 
 $(ATTACKS): $(BUILD)/tests/runner/attacks.o $(RUNNER) $(BUILD)/core/status.o
-	$(LINK) -o $@ $^ $(PART_LIBS)
+	$(call tell,link $@)
+	$(HIDE)$(LINK) -o $@ $^ $(PART_LIBS)
 
 build-tests: all $(BUILD)/tests/run $(ATTACKS)
 
@@ -166,7 +179,8 @@ bench: all $(BENCHES:%=$(BUILD)/tests/bench/%) ## measure speed and memory again
 	@for b in $(BENCHES); do $(BUILD)/tests/bench/$$b $(BIN) || exit; done
 
 $(BENCHES:%=$(BUILD)/tests/bench/%): %: %.o $(CORE)
-	$(LINK) -o $@ $^ $(PART_LIBS)
+	$(call tell,link $@)
+	$(HIDE)$(LINK) -o $@ $^ $(PART_LIBS)
 
 # --- what CI does -----------------------------------------------------------------------------
 SOURCES = $(shell git ls-files '*.c' '*.h' '*.cc' '*.hh')
@@ -181,26 +195,30 @@ check: ## all that CI does: layout, lint, both compilers, tests, sanitizers
 	@$(MAKE) --no-print-directory test SAN=1
 
 check-format:
-	clang-format --dry-run -Werror $(SOURCES)
+	$(call tell,check the layout of $(words $(SOURCES)) files)
+	$(HIDE)clang-format --dry-run -Werror $(SOURCES)
 
 check-lint:
-	printf '%s\n' $(TIDY_C) | xargs -P $(JOBS) -I{} clang-tidy --quiet {} -- $(SPEAK_C) $(WARN)
-	printf '%s\n' $(TIDY_CXX) | xargs -r -P $(JOBS) -I{} clang-tidy --quiet {} -- $(SPEAK_CXX) $(WARN)
-	cppcheck --quiet --std=c11 --language=c --error-exitcode=1 -j $(JOBS) -Icore -Itests \
+	$(call tell,clang-tidy $(words $(TIDY_C)) C files)
+	$(HIDE)printf '%s\n' $(TIDY_C) | xargs -P $(JOBS) -I{} clang-tidy --quiet {} -- $(SPEAK_C) $(WARN)
+	$(call tell,clang-tidy $(words $(TIDY_CXX)) C++ files)
+	$(HIDE)printf '%s\n' $(TIDY_CXX) | xargs -r -P $(JOBS) -I{} clang-tidy --quiet {} -- $(SPEAK_CXX) $(WARN)
+	$(call tell,cppcheck $(words $(TIDY_C)) C files)
+	$(HIDE)cppcheck --quiet --std=c11 --language=c --error-exitcode=1 -j $(JOBS) -Icore -Itests \
 	  --enable=warning,style,performance,portability --inline-suppr \
 	  $(TIDY_C)
 
 check-builds:
-	$(AGAIN) build-tests WERROR=1 CC=gcc CXX=g++ BUILD=build/check-gcc BIN=build/check-gcc/bin
-	$(AGAIN) build-tests WERROR=1 CC=clang CXX=clang++ BUILD=build/check-clang BIN=build/check-clang/bin
+	@$(AGAIN) build-tests WERROR=1 CC=gcc CXX=g++ BUILD=build/check-gcc BIN=build/check-gcc/bin
+	@$(AGAIN) build-tests WERROR=1 CC=clang CXX=clang++ BUILD=build/check-clang BIN=build/check-clang/bin
 
 tidy: ## lay out the sources as .clang-format says
-	clang-format -i $(SOURCES)
+	@clang-format -i $(SOURCES)
 
 format: tidy
 
 clean: ## remove everything that was built
-	rm -rf build
+	@rm -rf build
 
 # --- the machine ------------------------------------------------------------------------------
 deps: ## install the parts from elsewhere (Debian 12 or newer, Ubuntu 24.04 or newer)
