@@ -60,7 +60,9 @@ static void write_row(const pm_photon_dump *dump, const pm_deposit *deposit)
     FILE *out = dump->file.stream;
     fprintf(out, "%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%s,L", at.x, at.y, at.z, way.x,
             way.y, way.z, power[0], power[1], power[2], pm_map_name(dump->one.kind));
-    fwrite(dump->events, 1, deposit->bounce, out);
+    if (deposit->bounce > 0) { // before the first event there is no room for events
+        fwrite(dump->events, 1, deposit->bounce, out);
+    }
     fprintf(out, "%c,%u,%u\n", deposit->in_medium ? 'V' : 'D', deposit->bounce, deposit->light);
 }
 
