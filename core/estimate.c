@@ -218,11 +218,30 @@ static pm_spectrum reflected(const void *context, const pm_photon_view *photon)
     return pm_material_evaluate(lobes, from);
 }
 
+/// Whether every D lobe reflects alike whatever the directions.
+static bool lambertian(const pm_lobes *lobes)
+{
+    for (int i = 0; i < lobes->count; i++) {
+        if (!lobes->lobe[i].specular && lobes->lobe[i].type != PM_LOBE_DIFFUSE) {
+            return false;
+        }
+    }
+    return true;
+}
+
 pm_status pm_estimate_radiance(const pm_photon_map *map, const pm_estimate_settings *settings,
                                const pm_estimate_point *point, const pm_lobes *lobes,
                                pm_neighbour *scratch, pm_estimate *out)
 {
-    return estimate_surface(map, settings, point, reflected, lobes, scratch, out);
+    if (!lambertian(lobes)) {
+        return estimate_surface(map, settings, point, reflected, lobes, scratch, out);
+    }
+    // One factor for all photons, whose directions need not be decoded then.
+    pm_estimate found;
+    PM_TRY(estimate_surface(map, settings, point, NULL, NULL, scratch, &found));
+    found.value = pm_spectrum_mul(found.value, pm_material_evaluate(lobes, lobes->normal));
+    *out = found;
+    return PM_OK;
 }
 
 // --- volume ---------------------------------------------------------------------------------

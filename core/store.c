@@ -17,42 +17,6 @@
 #define EXPONENT_MAX 127    // stored as 255
 #define EXPONENT_MIN (-127) // stored as 1; 0 is kept for black
 
-// --- decoded directions, worked out by the compiler -----------------------------------------
-
-// Taylor polynomials, good to 1e-14 for |x| <= pi; arguments below are moved into that range.
-#define STEP(x, n, rest) (1.0 - (x) * (x) / ((n) * ((n) + 1.0)) * (rest))
-#define SIN_A(x) STEP(x, 2.0, STEP(x, 4.0, STEP(x, 6.0, STEP(x, 8.0, SIN_B(x)))))
-#define SIN_B(x) STEP(x, 10.0, STEP(x, 12.0, STEP(x, 14.0, STEP(x, 16.0, SIN_C(x)))))
-#define SIN_C(x) STEP(x, 18.0, STEP(x, 20.0, STEP(x, 22.0, STEP(x, 24.0, SIN_D(x)))))
-#define SIN_D(x) STEP(x, 26.0, STEP(x, 28.0, 1.0))
-#define COS_A(x) STEP(x, 1.0, STEP(x, 3.0, STEP(x, 5.0, STEP(x, 7.0, COS_B(x)))))
-#define COS_B(x) STEP(x, 9.0, STEP(x, 11.0, STEP(x, 13.0, STEP(x, 15.0, COS_C(x)))))
-#define COS_C(x) STEP(x, 17.0, STEP(x, 19.0, STEP(x, 21.0, STEP(x, 23.0, COS_D(x)))))
-#define COS_D(x) STEP(x, 25.0, STEP(x, 27.0, 1.0))
-#define SINE(x) ((x)*SIN_A(x))
-#define COSINE(x) COS_A(x)
-
-// The middles of bins i of theta, less pi / 2, and of phi, less pi.
-#define THETA(i) (((i) + 0.5) * (PM_PI / BINS) - PM_PI / 2.0)
-#define PHI(i) (((i) + 0.5) * (2.0 * PM_PI / BINS) - PM_PI)
-#define COS_SIN_THETA(i)                                                                       \
-    {                                                                                          \
-        -SINE(THETA(i)), COSINE(THETA(i))                                                      \
-    }
-#define COS_SIN_PHI(i)                                                                         \
-    {                                                                                          \
-        -COSINE(PHI(i)), -SINE(PHI(i))                                                         \
-    }
-
-#define FOUR(of, i) of(i), of((i) + 1), of((i) + 2), of((i) + 3)
-#define SIXTEEN(of, i) FOUR(of, i), FOUR(of, (i) + 4), FOUR(of, (i) + 8), FOUR(of, (i) + 12)
-#define SIXTY_FOUR(of, i)                                                                      \
-    SIXTEEN(of, i), SIXTEEN(of, (i) + 16), SIXTEEN(of, (i) + 32), SIXTEEN(of, (i) + 48)
-#define ALL(of) SIXTY_FOUR(of, 0), SIXTY_FOUR(of, 64), SIXTY_FOUR(of, 128), SIXTY_FOUR(of, 192)
-
-static const double theta_table[BINS][2] = {ALL(COS_SIN_THETA)};
-static const double phi_table[BINS][2] = {ALL(COS_SIN_PHI)};
-
 // --- power ----------------------------------------------------------------------------------
 
 static int pack_power(pm_spectrum power, uint8_t bytes[4])
@@ -104,9 +68,9 @@ static void pack_direction(pm_vec3 direction, uint8_t bytes[2])
 
 static pm_vec3 unpack_direction(const uint8_t bytes[2])
 {
-    const double *theta = theta_table[bytes[0]];
-    const double *phi = phi_table[bytes[1]];
-    return pm_vec(theta[1] * phi[0], theta[1] * phi[1], theta[0]);
+    double theta = (bytes[0] + 0.5) * (PM_PI / BINS);
+    double phi = (bytes[1] + 0.5) * (2.0 * PM_PI / BINS);
+    return pm_vec(sin(theta) * cos(phi), sin(theta) * sin(phi), cos(theta));
 }
 
 // --- whole photons --------------------------------------------------------------------------
