@@ -13,9 +13,9 @@
 
 static const pm_option table[] = {
     {"n", "n", PM_OPTION_COUNT, AT(photons), 0, 1, MANY, "N",
-     "photons emitted for each map that is traced", "per map, see below"},
+     "photons emitted for each map that is traced", "200000"},
     {"photons", "photons", PM_OPTION_COUNT, AT(photons_total), 0, 1, MANY, "N",
-     "photons emitted in all, split by the plan", "per map, see below"},
+     "photons emitted in all, split by the plan", "none: the numbers of each map"},
     {"global-photons", "global-photons", PM_OPTION_COUNT, AT(photons[PM_MAP_GLOBAL]), 0, 0,
      MANY, "N", "photons emitted for the global map; 0: no such map", NULL},
     {"caustic-photons", "caustic-photons", PM_OPTION_COUNT, AT(photons[PM_MAP_CAUSTIC]), 0, 0,
@@ -90,7 +90,7 @@ static const pm_option table[] = {
      "answer whether the difference is a fault or noise", NULL},
     {"max-rel-mse", "max-rel-mse", PM_OPTION_REAL, AT(max_rel_mse), AT(has_max_rel_mse), 0,
      (double)INFINITY, "X", "exit 1 when rel_mse is above", "none"},
-    {"o", "o", PM_OPTION_TEXT, AT(output), 0, 0, 0, "FILE", "output", "none"},
+    {"o", "o", PM_OPTION_TEXT, AT(output), 0, 0, 0, "FILE", "file to write", "none"},
     {"png", "png", PM_OPTION_TEXT, AT(png), 0, 0, 0, "FILE", "also an 8-bit sRGB picture",
      "none"},
     {"exposure", "exposure", PM_OPTION_REAL, AT(exposure), 0, -100, 100, "E",

@@ -3,6 +3,7 @@
 
 #include "file.h"
 #include "interrupt.h"
+#include "outputs.h"
 #include "usage.h"
 
 #include <omp.h>
@@ -27,6 +28,11 @@ bool pm_program_start(int argc, char **argv, const pm_options_program *program,
     }
     signal(SIGXFSZ, SIG_IGN);
     pm_interrupt_catch();
+    status = pm_outputs_check(options, program->name);
+    if (status != PM_OK) {
+        *code = pm_program_end(status);
+        return false;
+    }
     return true;
 }
 

@@ -15,8 +15,8 @@
 
 #include "options.h"
 
-/// Parses the command line, sets the number of threads, catches SIGINT (interrupt.h) and makes
-/// a full disk an error instead of a signal.
+/// Parses the command line, sets the number of threads, catches SIGINT (interrupt.h), makes a
+/// full disk an error instead of a signal, and checks that outputs can be written (outputs.h).
 ///
 /// @param options  [out] valid when true
 /// @param code     [out] what main returns when false: --help was printed (0), or the faults

@@ -16,9 +16,9 @@ static const pm_options_program program = {
     .positional_most = 1,
     .options = "n photon roulette max-bounces dump report",
     .notes =
-        "--dump writes every vertex of every path as photon,step,event,x,y,z,r,g,b; events are"
-        " L light, S specular, D diffuse, A absorbed, E escaped, C cut; r,g,b is the power [W]"
-        " that goes on.",
+        "--dump writes every vertex of every path as photon,step,event,x,y,z,r,g,b; events\n"
+        "are L light, S specular, D diffuse, A absorbed, E escaped, C cut; r,g,b is the\n"
+        "power [W] that goes on.",
 };
 
 typedef struct {

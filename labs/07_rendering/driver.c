@@ -21,6 +21,10 @@ static const pm_options_program program = {
     .options = "o png exposure size spp photons global-photons caustic-photons gather k r shape"
                " flatness filter kernel-constants preset packing roulette max-bounces view only"
                " map explain check report",
+    .notes =
+        "-o or --png must be given. -o writes an EXR file with the layers direct, specular,\n"
+        "caustic, indirect, volume and emission, which add up to R G B, and depth, normal,\n"
+        "gather and mask.emitter. --map takes what storage -o wrote of the same scene.",
 };
 
 /// What stays open while the program works.
@@ -40,7 +44,7 @@ static void split_photons(const pm_plan *plan, uint64_t total, uint64_t photons[
     for (pm_map_kind kind = 0; kind < PM_MAP_COUNT; kind++) {
         needed += pm_plan_needs_map(plan, kind);
     }
-    for (pm_map_kind kind = 0; kind < PM_MAP_COUNT && needed > 0; kind++) {
+    for (pm_map_kind kind = 0; kind < PM_MAP_COUNT; kind++) {
         photons[kind] = 0;
         if (pm_plan_needs_map(plan, kind)) {
             photons[kind] = total / needed--;
