@@ -12,18 +12,21 @@ typedef struct {
     pm_vec3 from;       // where it began
 } pm_path;
 
-/// The next surface on the ray that does something; null surfaces are passed.
-static bool next_vertex(const pm_compose *compose, pm_ray *ray, pm_vertex *at)
+/// The next surface on the ray, null ones too.
+static bool meet(const pm_compose *compose, const pm_ray *ray, pm_vertex *at)
 {
-    while (pm_closest(compose->world, ray, &at->hit)) {
-        pm_material_lobes(compose->world->scene, &at->hit, pm_vec_negate(ray->direction),
-                          ray->wavelength, &at->lobes);
-        if (!at->lobes.passes) {
-            return true;
-        }
-        *ray = pm_hit_ray(&at->hit, ray->direction, ray->wavelength, at->lobes.medium_beyond);
+    if (!pm_closest(compose->world, ray, &at->hit)) {
+        return false;
     }
-    return false;
+    pm_material_lobes(compose->world->scene, &at->hit, pm_vec_negate(ray->direction),
+                      ray->wavelength, &at->lobes);
+    return true;
+}
+
+/// The ray beyond a null surface.
+static pm_ray beyond(const pm_ray *ray, const pm_vertex *at)
+{
+    return pm_hit_ray(&at->hit, ray->direction, ray->wavelength, at->lobes.medium_beyond);
 }
 
 typedef pm_status (*pm_source_fn)(void *context, const pm_vertex *at, pm_spectrum *radiance);
@@ -43,11 +46,10 @@ static pm_status ask(const pm_compose *compose, pm_source_fn source, const pm_ve
     return PM_OK;
 }
 
-static pm_status ask_all(const pm_compose *compose, const pm_vertex *at, const pm_path *path,
-                         pm_eye *eye)
+static pm_status ask_diffuse(const pm_compose *compose, const pm_vertex *at,
+                             const pm_path *path, pm_eye *eye)
 {
     const pm_compose_sources *sources = &compose->ask;
-    PM_TRY(ask(compose, sources->emitted, at, path, PM_LAYER_EMISSION, eye));
     if (at->lobes.diffuse) {
         PM_TRY(ask(compose, sources->direct, at, path, PM_LAYER_DIRECT, eye));
         PM_TRY(ask(compose, sources->caustic, at, path, PM_LAYER_CAUSTIC, eye));
@@ -69,6 +71,24 @@ static bool emits_towards(const pm_scene *scene, const pm_vertex *at)
 {
     return scene->shapes[at->hit.shape].light != PM_NONE &&
            pm_vec_dot(at->lobes.wi, at->hit.normal) > 0.0;
+}
+
+/// The next surface that does something to the path. A lamp shines even where its surface is
+/// null: photons and shadow rays start on it all the same.
+static pm_status next_vertex(const pm_compose *compose, pm_path *path, pm_vertex *at,
+                             pm_eye *eye, bool *found)
+{
+    while ((*found = meet(compose, &path->ray, at))) {
+        if (emits_towards(compose->world->scene, at)) {
+            eye->emitter = true;
+            PM_TRY(ask(compose, compose->ask.emitted, at, path, PM_LAYER_EMISSION, eye));
+        }
+        if (!at->lobes.passes) {
+            return PM_OK;
+        }
+        path->ray = beyond(&path->ray, at);
+    }
+    return PM_OK;
 }
 
 /// The S lobes of a vertex, in the order of its lobes; writes their places there.
@@ -149,13 +169,14 @@ static pm_status follow(const pm_compose *compose, pm_path path, pm_vertex at, u
                         pm_eye *eye)
 {
     for (bool goes_on = true; goes_on;) {
-        if (!next_vertex(compose, &path.ray, &at)) {
+        bool found;
+        PM_TRY(next_vertex(compose, &path, &at, eye, &found));
+        if (!found) {
             return PM_OK;
         }
         at.vertex = ++eye->vertices;
         note_first(&at, &path, eye);
-        eye->emitter = eye->emitter || emits_towards(compose->world->scene, &at);
-        PM_TRY(ask_all(compose, &at, &path, eye));
+        PM_TRY(ask_diffuse(compose, &at, &path, eye));
         if (!may_turn(compose, &path, &at, &eye->cut)) {
             return PM_OK;
         }
@@ -183,7 +204,11 @@ pm_status pm_compose_gather(const pm_compose *compose, const pm_ray *ray, const 
     pm_path path = {.ray = *ray, .weight = pm_gray(1.0), .from = ray->origin};
     pm_vertex end = *at;
     bool goes_on = true;
-    while (goes_on && next_vertex(compose, &path.ray, &end)) {
+    while (goes_on && meet(compose, &path.ray, &end)) {
+        if (end.lobes.passes) {
+            path.ray = beyond(&path.ray, &end);
+            continue;
+        }
         if (end.lobes.diffuse && compose->ask.global != NULL) {
             pm_spectrum leaving = pm_gray(0.0);
             PM_TRY(compose->ask.global(compose->ask.context, &end, &leaving));

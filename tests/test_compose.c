@@ -134,6 +134,27 @@ static void null_surfaces_are_no_event(void)
     pm_scenes_free(&d.s);
 }
 
+// Its photons and shadow rays leave it, so the eye must see it, too; from the front only.
+static void null_lamps_shine_and_let_pass(void)
+{
+    pm_desk d = {0};
+    pm_scenes_begin(&d.s);
+    pm_scenes_wear(&d.s, pm_scenes_square(4.0, -1.0, false),
+                   pm_scenes_diffuse(&d.s, pm_gray(0.5)));
+    int null = pm_scenes_null(&d.s);
+    int front = pm_scenes_wear(&d.s, pm_scenes_square(4.0, -0.25, false), null);
+    int back = pm_scenes_wear(&d.s, pm_scenes_square(4.0, -0.5, true), null);
+    pm_scenes_lamp(&d.s, front, pm_gray(1.0));
+    pm_scenes_lamp(&d.s, back, pm_gray(1.0));
+    pm_desk_ready(&d);
+    pm_eye eye = pm_desk_look(&d, middle, down, 0);
+    check_layers(&eye, PM_DESK_EMITTED, PM_DESK_DIRECT, PM_DESK_CAUSTIC, PM_DESK_INDIRECT, 0.0);
+    CHECK(eye.emitter && eye.vertices == 1);
+    CHECK_NEAR(eye.depth, 1.0, 1e-12);
+    CHECK_NEAR(pm_desk_gather(&d, middle, down, 0), PM_DESK_GLOBAL, 1e-9);
+    pm_scenes_free(&d.s);
+}
+
 static void back_of_a_one_sided_surface_is_black(void)
 {
     pm_desk d = {0};
@@ -353,4 +374,6 @@ PM_TESTS({"compose.1", "a diffuse lamp adds to emission, direct, caustic and ind
           "gather rays add nothing from lamps, met directly, mirrored or refracted",
           gather_rays_see_no_lamps},
          {"compose.13", "gather rays add the global map, also where mirrors lead them",
-          gather_rays_find_the_global_map_everywhere})
+          gather_rays_find_the_global_map_everywhere},
+         {"compose.14", "a lamp on a null surface shines from its front and lets light pass",
+          null_lamps_shine_and_let_pass})
