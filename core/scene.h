@@ -116,7 +116,7 @@ typedef struct pm_scene {
     int material_count, shape_count, light_count, medium_count;
     bool has_camera;
     pm_camera camera;
-    pm_vec3 center;    // added to a centred point gives the file's coordinates
+    pm_vec3 center;    // of all shapes; added to a centred point gives the file's coordinates
     pm_vec3 low, high; // bounds of all shapes and point lights, centred; the camera is left out
     double radius;     // of the bounding sphere about the centred origin, > 0
     uint64_t hash;     // of everything above that light depends on

@@ -75,8 +75,19 @@ static void move(pm_shape *shape, pm_vec3 by)
     shape->reach = fmax(pm_vec_reach(b.low), pm_vec_reach(b.high));
 }
 
-/// Bounds in the file's coordinates.
-static bounds bounds_of_all(const pm_scene_file *source)
+static void cover_point_lights(const pm_scene *scene, const pm_vec3 *origin, bounds *all)
+{
+    for (int i = 0; i < scene->light_count; i++) {
+        if (scene->lights[i].type == PM_LIGHT_POINT) {
+            pm_vec3 by = origin != NULL ? origin[i] : pm_vec(0.0, 0.0, 0.0);
+            cover(all, pm_vec_add(scene->lights[i].position, by));
+        }
+    }
+}
+
+/// The middle of all shapes, in the file's coordinates. Point lights do not move it: photons
+/// are floats and offsets grow with coordinates, so a sun far away would make the scene coarse.
+static pm_vec3 middle_of(const pm_scene_file *source)
 {
     const pm_scene *scene = &source->scene;
     bounds all = nowhere();
@@ -85,12 +96,11 @@ static bounds bounds_of_all(const pm_scene_file *source)
         cover(&all, pm_vec_add(b.low, source->shape_origin[i]));
         cover(&all, pm_vec_add(b.high, source->shape_origin[i]));
     }
-    for (int i = 0; i < scene->light_count; i++) {
-        if (scene->lights[i].type == PM_LIGHT_POINT) {
-            cover(&all, pm_vec_add(scene->lights[i].position, source->light_origin[i]));
-        }
+    if (scene->shape_count == 0) {
+        cover_point_lights(scene, source->light_origin, &all);
     }
-    return all.low.x <= all.high.x ? all : (bounds){0};
+    return all.low.x <= all.high.x ? pm_vec_scale(pm_vec_add(all.low, all.high), 0.5)
+                                   : pm_vec(0.0, 0.0, 0.0);
 }
 
 /// Bounds in centred coordinates, and the radius about the origin.
@@ -102,11 +112,7 @@ static void measure(pm_scene *scene)
         cover(&all, b.low);
         cover(&all, b.high);
     }
-    for (int i = 0; i < scene->light_count; i++) {
-        if (scene->lights[i].type == PM_LIGHT_POINT) {
-            cover(&all, scene->lights[i].position);
-        }
-    }
+    cover_point_lights(scene, NULL, &all);
     all = all.low.x <= all.high.x ? all : (bounds){0};
     scene->low = all.low;
     scene->high = all.high;
@@ -142,8 +148,7 @@ static void find_flux(pm_scene_file *source)
 void pm_scene_center(pm_scene_file *source)
 {
     pm_scene *scene = &source->scene;
-    bounds all = bounds_of_all(source);
-    scene->center = pm_vec_scale(pm_vec_add(all.low, all.high), 0.5);
+    scene->center = middle_of(source);
     for (int i = 0; i < scene->shape_count; i++) {
         move(&scene->shapes[i], pm_vec_sub(source->shape_origin[i], scene->center));
     }

@@ -9,7 +9,8 @@ static const char text[] =
     "<scene version='3.0.0'>"
     "<default name='move' value='0 0 0'/><default name='grow' value='1'/>"
     "<default name='albedo' value='0.5'/><default name='id' value='a'/>"
-    "<default name='fov' value='40'/><default name='spare' value='0.1'/>"
+    "<default name='fov' value='40'/><default name='lamp' value='4.4'/><default name='spare' "
+    "value='0.1'/>"
     "<sensor type='perspective'><float name='fov' value='$fov'/>"
     "<transform name='to_world'><translate value='$move'/></transform></sensor>"
     "<bsdf type='diffuse'><float name='reflectance' value='$spare'/></bsdf>"
@@ -26,7 +27,7 @@ static const char text[] =
     "<shape type='cylinder'><point name='p0' value='0.1 0.2 0.3'/>"
     "<point name='p1' value='1.1 0.4 2.3'/><float name='radius' value='0.21'/>"
     "<transform name='to_world'>" PLACE "</shape>"
-    "<emitter type='point'><transform name='to_world'><translate z='4.4'/>" PLACE
+    "<emitter type='point'><transform name='to_world'><translate z='$lamp'/>" PLACE
     "</emitter></scene>";
 
 /// The scene with one of its defaults changed.
@@ -80,18 +81,35 @@ static void centred(void)
 {
     pm_scene s = read_with("grow", "1");
     // x from the sphere's -2.57 to the cube's turned corner, y of the disk's rim up to the
-    // sphere, z from the cube to the light.
+    // sphere, z from the cube to the cylinder's far rim. The light stands above all of it.
     double corner = 3.1 + cos(12.0 * PM_PI / 180.0) + sin(12.0 * PM_PI / 180.0);
-    check_vectors(s.center, pm_vec((corner - 2.57) / 2.0, (-3.2 + 1.67) / 2.0, 1.7), 1.0,
+    double rim = 2.3 + 0.21 * sqrt(1.0 - 4.0 / 5.04);
+    pm_vec3 middle = pm_vec((corner - 2.57) / 2.0, (-3.2 + 1.67) / 2.0, (rim - 1.0) / 2.0);
+    check_vectors(s.center, middle, 1.0, 1e-14);
+    check_vectors(s.low, pm_vec(-2.57 - middle.x, -3.2 - middle.y, -1.0 - middle.z), 1.0,
                   1e-14);
-    check_vectors(s.high, pm_vec((corner + 2.57) / 2.0, (3.2 + 1.67) / 2.0, 2.7), 1.0, 1e-14);
-    check_vectors(s.low, s.high, -1.0, 1e-14);
+    check_vectors(s.high, pm_vec(-s.low.x, -s.low.y, 4.4 - middle.z), 1.0, 1e-14);
     CHECK_NEAR(s.radius, pm_vec_length(s.high), 1e-14);
     check_vectors(s.camera.position, s.center, -1.0, 0.0);
     for (int i = 0; i < s.shape_count; i++) {
         CHECK(s.shapes[i].reach <= pm_vec_reach(s.high) * (1.0 + 1e-15));
     }
     pm_scene_free(&s);
+}
+
+// Photons are stored as floats and offsets grow with coordinates.
+static void far_lamp(void)
+{
+    pm_scene near = read_with("lamp", "4.4");
+    pm_scene far = read_with("lamp", "1e9");
+    check_vectors(far.center, near.center, 1.0, 0.0);
+    for (int i = 0; i < near.shape_count; i++) {
+        check_shape(&far.shapes[i], &near.shapes[i], 1.0, 0.0);
+    }
+    CHECK_NEAR(far.lights[1].position.z, 1e9 - far.center.z, 1e-6);
+    CHECK(far.radius >= 1e9 - far.center.z);
+    pm_scene_free(&near);
+    pm_scene_free(&far);
 }
 
 static void far_away(void)
@@ -151,4 +169,6 @@ PM_TESTS({"scene_center.1", "the scene's middle comes to lie in the origin", cen
          {"scene_center.2", "a scene a million sizes away is the same to rounding", far_away},
          {"scene_center.3", "a scene scaled by a power of two is scaled exactly", scaled},
          {"scene_center.4", "a scene that is one point has a radius", single_point},
-         {"scene_center.5", "the hash depends on what light depends on, to the last bit", hash})
+         {"scene_center.5", "the hash depends on what light depends on, to the last bit", hash},
+         {"scene_center.6", "a lamp far away does not move the shapes from the origin",
+          far_lamp})
