@@ -123,6 +123,12 @@ bool pm_plan_needs_map(const pm_plan *plan, pm_map_kind kind)
     return plan->item[part[kind]].needed;
 }
 
+void pm_plan_miss(pm_plan *plan, pm_plan_part part, const char *what)
+{
+    decide(plan, part, true, "%s", what);
+    plan->item[part].missing = true;
+}
+
 const char *pm_plan_name(pm_plan_part part)
 {
     static const char *const names[PM_PLAN_COUNT] = {

@@ -18,6 +18,7 @@ typedef enum {
 
 typedef struct {
     bool needed;
+    bool missing;  // needed, but switched off: `why` names the paths that are left out
     char why[160]; // one sentence without a full stop
 } pm_plan_item;
 
@@ -31,6 +32,9 @@ pm_plan pm_plan_scene(const pm_scene *scene);
 
 /// Whether the plan asks for the map of `kind`.
 bool pm_plan_needs_map(const pm_plan *plan, pm_map_kind kind);
+
+/// Notes that a part which the scene needs was switched off, and what that leaves out.
+void pm_plan_miss(pm_plan *plan, pm_plan_part part, const char *what);
 
 /// The part's name as reports spell it.
 const char *pm_plan_name(pm_plan_part part);

@@ -157,6 +157,20 @@ static pm_status run_eye_pass(pm_eye_pass *pass)
     return pm_tiles_run(&tiles);
 }
 
+static void look_over(const pm_picture *picture, size_t pixels, pm_eye_report *report)
+{
+    report->black = true;
+    for (size_t i = 0; i < pixels; i++) {
+        bool finite = true;
+        for (int c = 0; c < 3; c++) {
+            float value = picture->total[c][i];
+            finite = finite && isfinite(value);
+            report->black = report->black && value == 0.0f;
+        }
+        report->too_bright += finite ? 0 : 1;
+    }
+}
+
 pm_status pm_render_image(const pm_intersector *world, const pm_render_settings *settings,
                           const pm_render_maps *maps, pm_image *image, pm_eye_report *report)
 {
@@ -178,6 +192,7 @@ pm_status pm_render_image(const pm_intersector *world, const pm_render_settings 
         pm_image_free(&made);
         return status;
     }
+    look_over(&pass.picture, (size_t)made.width * (size_t)made.height, &counts);
     counts.seconds = pm_seconds_now() - start;
     counts.cpu = pm_cpu_seconds_now() - cpu_start;
     *image = made;

@@ -33,13 +33,16 @@ typedef struct {
 
 /// What the eye pass did.
 typedef struct {
-    double seconds;   // on the wall
-    double cpu;       // [s] of all threads
-    uint64_t lookups; // in the global map
-    uint64_t cut;     // eye paths and gather rays ended after too many S events in a row
+    double seconds;      // on the wall
+    double cpu;          // [s] of all threads
+    uint64_t lookups;    // in the global map
+    uint64_t cut;        // eye paths and gather rays ended after too many S events in a row
+    uint64_t too_bright; // pixels beyond the range of a float: infinite in the picture
+    bool black;          // no pixel has any light
 } pm_eye_report;
 
-/// Traces and balances the maps that the scene needs and `settings` does not switch off.
+/// Traces and balances the maps that the scene and the wanted layers need and `settings` does
+/// not switch off; what is missing for a map that is off is noted in the plan.
 /// A map that is there already (`has` set, from a file) is balanced if it is not and kept.
 ///
 /// @param maps  [in, out] zeroed, or with maps given; free with pm_render_maps_free() in any

@@ -48,13 +48,39 @@ static pm_status balance_map(pm_render_maps *maps, pm_map_kind kind)
     return PM_OK;
 }
 
+/// Whether a layer that is wanted asks the map of `kind`; dots show every map.
+static bool asked_for(const pm_render_settings *settings, pm_map_kind kind)
+{
+    static const int layer[PM_MAP_COUNT] = {
+        [PM_MAP_GLOBAL] = PM_LAYER_INDIRECT,
+        [PM_MAP_CAUSTIC] = PM_LAYER_CAUSTIC,
+        [PM_MAP_VOLUME] = PM_LAYER_VOLUME,
+    };
+    int only = settings->only;
+    return settings->view_photons || only == PM_NONE || only == PM_LAYER_SPECULAR ||
+           only == layer[kind];
+}
+
+/// The plan says what a map that is off by choice leaves out of the picture.
+static void name_what_is_missing(pm_plan *plan, pm_map_kind kind)
+{
+    if (kind == PM_MAP_GLOBAL) {
+        pm_plan_miss(plan, PM_PLAN_INDIRECT,
+                     "no global map by choice: all indirect light is missing");
+    } else if (kind == PM_MAP_CAUSTIC) {
+        pm_plan_miss(plan, PM_PLAN_CAUSTIC, "no caustic map by choice: paths LS+D are missing");
+    }
+}
+
 pm_status pm_render_make_maps(const pm_intersector *world, const pm_render_settings *settings,
                               pm_render_maps *maps)
 {
     maps->plan = pm_plan_scene(world->scene);
     for (pm_map_kind kind = 0; kind < PM_MAP_COUNT; kind++) {
-        bool wanted = pm_plan_needs_map(&maps->plan, kind) && settings->photons[kind] > 0;
-        if (wanted && !maps->has[kind]) {
+        bool needed = pm_plan_needs_map(&maps->plan, kind) && asked_for(settings, kind);
+        if (needed && !maps->has[kind] && settings->photons[kind] == 0) {
+            name_what_is_missing(&maps->plan, kind);
+        } else if (needed && !maps->has[kind]) {
             PM_TRY(trace_map(world, settings, kind, maps));
         }
         if (maps->has[kind]) {

@@ -95,6 +95,9 @@ static json_t *whole_object(const pm_scene *scene, const pm_render_settings *set
     object = pm_report_add(object, "maps", maps_object(maps));
     object = pm_report_add(object, "flux", flux_object(maps));
     object = pm_report_add(object, "eye_paths_cut", json_integer((json_int_t)eye->cut));
+    object =
+        pm_report_add(object, "pixels_too_bright", json_integer((json_int_t)eye->too_bright));
+    object = pm_report_add(object, "black", json_boolean(eye->black));
     object = pm_report_add(object, "notes", pm_report_notes(scene));
     object = pm_report_add(object, "seconds", seconds_object(maps, eye));
     return pm_report_add(object, "peak_bytes", json_integer(peak_bytes()));
@@ -128,6 +131,49 @@ static void print_map(const pm_scene *scene, const pm_render_maps *maps, int kin
     row("balancing", map_name[kind], maps->balance_seconds[kind], map->count, power, power);
 }
 
+static void remark_on_map(const pm_render_maps *maps, int kind)
+{
+    const pm_photon_map *map = &maps->map[kind];
+    double lost = pm_spectrum_mean(maps->pass[kind].audit.lost);
+    if (map->refused > 0) {
+        printf("%s map: %llu photons without a finite value were refused\n", map_name[kind],
+               (unsigned long long)map->refused);
+    }
+    if (map->clamped > 0 || map->vanished > 0) {
+        printf("%s map: %llu photons are above and %llu below the powers that can be stored\n",
+               map_name[kind], (unsigned long long)map->clamped,
+               (unsigned long long)map->vanished);
+    }
+    if (lost > 0.0) {
+        printf("%s map: %g W were lost with photons cut after too many events\n",
+               map_name[kind], lost);
+    }
+}
+
+/// What a picture does not show, or shows wrongly: nothing of that passes in silence.
+static void print_remarks(const pm_render_maps *maps, const pm_eye_report *eye)
+{
+    for (int kind = 0; kind < PM_MAP_COUNT; kind++) {
+        remark_on_map(maps, kind);
+    }
+    for (pm_plan_part part = 0; part < PM_PLAN_COUNT; part++) {
+        if (maps->plan.item[part].missing) {
+            puts(maps->plan.item[part].why);
+        }
+    }
+    if (eye->cut > 0) {
+        printf("%llu eye paths and gather rays were cut after too many mirrors or glasses\n",
+               (unsigned long long)eye->cut);
+    }
+    if (eye->too_bright > 0) {
+        printf("%llu pixels are too bright for a float and infinite in the picture\n",
+               (unsigned long long)eye->too_bright);
+    }
+    if (eye->black) {
+        puts("the picture is black: no light comes to the camera");
+    }
+}
+
 static void print_table(const pm_scene *scene, const pm_render_maps *maps,
                         const pm_eye_report *eye)
 {
@@ -151,6 +197,7 @@ pm_status pm_render_report(const pm_options *options, const pm_scene *scene,
 {
     if (!options->json) {
         print_table(scene, maps, eye);
+        print_remarks(maps, eye);
     }
     PM_TRY(pm_report_end(options, whole_object(scene, settings, maps, eye)));
     for (int kind = 0; kind < PM_MAP_COUNT; kind++) {

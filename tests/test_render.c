@@ -284,31 +284,26 @@ static void a_photon_lights_the_pixel_it_is_seen_in(void)
 
 // --- leaving out and stopping ----------------------------------------------------------------
 
-static void maps_that_nothing_needs_are_not_traced(void)
+// 1e39 W/m^2 is no float; with 0 W nothing is seen.
+static void pictures_without_or_beyond_light_say_so(void)
 {
-    pm_scenes s;
-    pm_scenes_begin(&s);
-    pm_scenes_room(&s, 1.0, pm_scenes_diffuse(&s, pm_gray(0.5)));
-    pm_scenes_point(&s, pm_vec(0.0, 0.0, 0.0), pm_gray(1.0));
-    pm_scenes_ready(&s);
-    pm_render_settings settings = pm_pictures_settings();
-    pm_render_maps maps = {0};
-    CHECK_OK(pm_render_make_maps(&s.world, &settings, &maps));
-    CHECK(maps.has[PM_MAP_GLOBAL] && !maps.has[PM_MAP_CAUSTIC] && !maps.has[PM_MAP_VOLUME]);
-    CHECK(maps.plan.item[PM_PLAN_INDIRECT].needed && !maps.plan.item[PM_PLAN_CAUSTIC].needed);
-    pm_render_maps_free(&maps);
-
-    s.materials[0].reflectance = pm_gray(0.0);
-    CHECK_OK(pm_render_make_maps(&s.world, &settings, &maps));
-    CHECK(!maps.has[PM_MAP_GLOBAL] && !maps.plan.item[PM_PLAN_INDIRECT].needed);
-    pm_render_maps_free(&maps);
-
-    s.materials[0].reflectance = pm_gray(0.5);
-    settings.photons[PM_MAP_GLOBAL] = 0; // off by choice
-    CHECK_OK(pm_render_make_maps(&s.world, &settings, &maps));
-    CHECK(!maps.has[PM_MAP_GLOBAL] && maps.plan.item[PM_PLAN_INDIRECT].needed);
-    pm_render_maps_free(&maps);
-    pm_scenes_free(&s);
+    const double power[] = {0.0, 1.0, 1e40};
+    for (int i = 0; i < 3; i++) {
+        pm_scenes s;
+        room_begin(&s, 1.0, power[i]);
+        pm_render_settings settings = gathering();
+        settings.only = PM_LAYER_DIRECT;
+        pm_render_maps maps = {0};
+        pm_image image;
+        pm_eye_report report;
+        CHECK_OK(pm_render_make_maps(&s.world, &settings, &maps));
+        CHECK_OK(pm_render_image(&s.world, &settings, &maps, &image, &report));
+        CHECK(report.black == (i == 0));
+        CHECK((report.too_bright > 0) == (i == 2));
+        pm_image_free(&image);
+        pm_render_maps_free(&maps);
+        pm_scenes_free(&s);
+    }
 }
 
 static void sigint_stops_and_leaves_nothing(void)
@@ -351,7 +346,7 @@ PM_TESTS({"render.1", "the layers add up to R G B, bit for bit", layers_add_up},
           scale_does_not_matter},
          {"render.8", "a photon lights the pixel that it is seen in, in the layer of its path",
           a_photon_lights_the_pixel_it_is_seen_in},
-         {"render.9", "a map that nothing needs, or that is switched off, is not traced",
-          maps_that_nothing_needs_are_not_traced},
-         {"render.10", "after SIGINT maps and pictures stop and hand nothing out",
-          sigint_stops_and_leaves_nothing})
+         {"render.9", "after SIGINT maps and pictures stop and hand nothing out",
+          sigint_stops_and_leaves_nothing},
+         {"render.10", "a black picture and one too bright for floats are reported",
+          pictures_without_or_beyond_light_say_so})
