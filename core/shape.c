@@ -10,7 +10,6 @@
 
 #define EDGE_MARGIN 4.0
 
-// Inlined by every compiler, unlike fmax() and fmin(), which took a fifth of a query's time.
 uint32_t pm_shape_primitives(const pm_shape *shape)
 {
     return shape->type == PM_SHAPE_MESH ? shape->triangle_count : 1;
