@@ -12,6 +12,7 @@
 #include <string.h>
 
 #define CHUNK 1024u
+#define ROUND 1024 // chunks between looks at whether more are wanted
 #define DIFFUSE_CAP 10000u
 #define DIFFUSE_CAP_ABOVE 0.9999 // albedo from which on paths need a cap
 #define SPECULAR_CAP 1000u
@@ -207,12 +208,17 @@ static void run_chunks(pm_pass *pass)
 #pragma omp critical
             fail(pass, made);
         }
+        bool done = false; // the same for all threads: read between two barriers
+        for (int64_t first = 0; first < chunks && !done; first += ROUND) {
+            int64_t end = chunks - first < ROUND ? chunks : first + ROUND;
 #pragma omp barrier
 #pragma omp for ordered schedule(dynamic, 1)
-        for (int64_t chunk = 0; chunk < chunks; chunk++) {
-            if (worker != NULL) {
-                run_chunk(pass, worker, (uint64_t)chunk);
+            for (int64_t chunk = first; chunk < end; chunk++) {
+                if (worker != NULL) {
+                    run_chunk(pass, worker, (uint64_t)chunk);
+                }
             }
+            done = pass->done;
         }
         if (worker != NULL) {
 #pragma omp critical
