@@ -52,7 +52,7 @@ static const pm_option table[] = {
     {"caustics", "caustics", PM_OPTION_SWITCH, AT(caustics_by_global), 0, 0, 0, "map|global",
      "caustics from their own map or from the global one", NULL},
     {"view", "view", PM_OPTION_SWITCH, AT(view_photons), 0, 0, 0, "full|photons",
-     "the picture, or the photon estimate as it is", NULL},
+     "the picture, or its photons as dots (--exposure -2 shows their colours)", NULL},
     {"size", "size", PM_OPTION_SIZE, AT(width), 0, 1, 65536, "WxH", "pixels", "the scene's"},
     {"preset", "preset", PM_OPTION_WORD, AT(preset), 0, 0, 0,
      "lecture-10k|lecture-500k|lecture-disc",
