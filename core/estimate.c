@@ -44,8 +44,8 @@ static pm_status check(const pm_photon_map *map, const pm_estimate_settings *set
     if (!map->scaled && map->count > 0) {
         return PM_FAIL(PM_EINPUT, "%s", "the photon map must be scaled before it is asked");
     }
-    if (!(settings->radius > 0.0)) {
-        return PM_FAIL(PM_EINPUT, "radius must be > 0, got %g", settings->radius);
+    if (!(settings->radius > 0.0 && settings->radius * settings->radius > 0.0)) {
+        return PM_FAIL(PM_EINPUT, "radius must be > 0, squared too, got %g", settings->radius);
     }
     if (!(settings->flatness > 0.0 && settings->flatness <= 1.0)) {
         return PM_FAIL(PM_EINPUT, "flatness must lie in (0, 1], got %g", settings->flatness);
@@ -68,9 +68,11 @@ bool pm_estimate_accept(const void *context, const pm_photon *photon, double *di
                           (double)photon->position[2] - query->point.at.z);
     *distance2 = pm_vec_dot(away, away);
     if (query->shape == PM_GATHER_DISC) {
+        // In-plane^2 + (height / flatness)^2. Not by 1 / flatness^2: where that overflows, even
+        // photons in the plane would come out as NaN.
         double height = pm_vec_dot(away, normal);
-        double stretch = 1.0 / (query->flatness * query->flatness) - 1.0;
-        *distance2 += stretch * height * height; // in-plane^2 + height^2 / flatness^2
+        double stretched = height / query->flatness;
+        *distance2 += (stretched - height) * (stretched + height);
     }
     return true;
 }

@@ -120,6 +120,11 @@ static void disc_measures_heights_by_flatness(void)
     double distance2;
     CHECK(pm_estimate_accept(&query, &photon, &distance2));
     CHECK_NEAR(distance2, 9.0 + 16.0 * 16.0, 1e-12);
+    photon.position[2] = 0.0f;
+    query.flatness = 1e-200; // its square is 0, and 0 / 0 not a number
+    CHECK(pm_estimate_accept(&query, &photon, &distance2));
+    CHECK_NEAR(distance2, 9.0, 0.0);
+    photon.position[2] = 4.0f;
     query.shape = PM_GATHER_SPHERE;
     CHECK(pm_estimate_accept(&query, &photon, &distance2));
     CHECK_NEAR(distance2, 25.0, 0.0);
@@ -264,8 +269,8 @@ static void wrong_settings_are_refused(void)
     CHECK_OK(pm_store_scale(&map, 1));
     refuse(&map, settings, "must be balanced");
     CHECK_OK(pm_balance_build(&map));
-    static const double radii[] = {0.0, -1.0, (double)NAN};
-    for (int i = 0; i < 3; i++) {
+    static const double radii[] = {0.0, -1.0, (double)NAN, 1e-300};
+    for (int i = 0; i < 4; i++) {
         settings.radius = radii[i];
         refuse(&map, settings, "radius must be > 0");
     }
