@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-// The one mutable global of the project: a signal handler can reach nothing else.
+// Mutable and global, like the names in file.c: a signal handler can reach nothing else.
 static volatile sig_atomic_t caught;
 
 static void note_signal(int number)
