@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <map>
+#include <tuple>
 #include <utility>
 
 namespace {
@@ -125,16 +126,29 @@ bool is_flat(pm_vec3 a, pm_vec3 b)
     return pm_vec_dot(a, b) > crease_cosine * pm_vec_length(a) * pm_vec_length(b);
 }
 
+/// For each vertex the first one at its place: files may hold a vertex once a triangle.
+std::vector<uint32_t> weld(const pm_shape *s)
+{
+    std::map<std::tuple<double, double, double>, uint32_t> first;
+    std::vector<uint32_t> welded(s->vertex_count);
+    for (uint32_t i = 0; i < s->vertex_count; i++) {
+        const pm_vec3 &v = s->vertices[i];
+        welded[i] = first.emplace(std::make_tuple(v.x, v.y, v.z), i).first->second;
+    }
+    return welded;
+}
+
 /// Draws the edges that have one triangle, or two that meet at an angle.
 void draw_creases(pm_drawing *drawing, const pm_shape *s, pm_colour colour)
 {
+    const std::vector<uint32_t> welded = weld(s);
     typedef std::pair<uint32_t, uint32_t> edge;
     std::map<edge, uint32_t> open;
     std::vector<edge> creases;
     for (uint32_t i = 0; i < s->triangle_count; i++) {
         for (int k = 0; k < 3; k++) {
-            uint32_t a = s->triangles[i][k];
-            uint32_t b = s->triangles[i][(k + 1) % 3];
+            uint32_t a = welded[s->triangles[i][k]];
+            uint32_t b = welded[s->triangles[i][(k + 1) % 3]];
             edge e = a < b ? edge(a, b) : edge(b, a);
             auto other = open.find(e);
             if (other == open.end()) {

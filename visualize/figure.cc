@@ -5,6 +5,8 @@
 // if any, make the write fail.
 #include "figure.hh"
 
+#include "drawing.hh"
+
 extern "C" {
 #include "interrupt.h"
 #include "png.h"
@@ -31,6 +33,10 @@ VTK_MODULE_INIT(vtkRenderingOpenGL2)
 VTK_MODULE_INIT(vtkRenderingFreeType)
 
 namespace {
+
+// The background, from the bottom to the top.
+const pm_colour ground_low = {8, 9, 14};
+const pm_colour ground_high = {30, 34, 48};
 
 /// Takes VTK's messages: remembers the first error, drops the rest.
 class Listener : public vtkOutputWindow {
@@ -120,6 +126,38 @@ std::vector<uint8_t> read_pixels(vtkRenderWindow *window, int width, int height)
     return pixels;
 }
 
+uint8_t between(uint8_t low, uint8_t high, double up)
+{
+    return static_cast<uint8_t>(std::lround(low + up * (high - low)));
+}
+
+/// A piece of the background up to the top right corner, in pixels from the bottom left.
+void cover(const pm_figure *figure, pm_drawing *drawing, double x0, double y0)
+{
+    double x1 = figure->viewpoint.width;
+    double y1 = figure->viewpoint.height;
+    double up = y0 / y1;
+    pm_colour low = {between(ground_low.r, ground_high.r, up),
+                     between(ground_low.g, ground_high.g, up),
+                     between(ground_low.b, ground_high.b, up)};
+    vtkIdType first = drawing->vertex(pm_vec(x0, y0, 0), low, 1.0);
+    drawing->vertex(pm_vec(x1, y0, 0), low, 1.0);
+    drawing->vertex(pm_vec(x1, y1, 0), ground_high, 1.0);
+    drawing->vertex(pm_vec(x0, y1, 0), ground_high, 1.0);
+    drawing->triangle(first, first + 1, first + 2);
+    drawing->triangle(first, first + 2, first + 3);
+}
+
+/// Where text stands, nothing of the scene is seen: paths come from far above it.
+void cover_margins(pm_figure *figure)
+{
+    pm_drawing margins;
+    double line = figure->pixels(2.0); // an outline at the border stays whole
+    cover(figure, &margins, 0.0, (1.0 - PM_VIEWPOINT_TOP) * figure->viewpoint.height + line);
+    cover(figure, &margins, figure->column_left() - figure->pixels(8.0), 0.0);
+    pm_figure_overlay(figure, margins.data(), 1.0);
+}
+
 } // namespace
 
 void pm_figure_overlay(pm_figure *figure, vtkPolyData *data, double line_width)
@@ -146,12 +184,15 @@ pm_status pm_figure_open(const pm_viewpoint *viewpoint, pm_figure **figure)
         auto renderer = vtkSmartPointer<vtkRenderer>::New();
         renderer->SetUseDepthPeeling(0);
         renderer->GradientBackgroundOn();
-        renderer->SetBackground(8 / 255.0, 9 / 255.0, 14 / 255.0);
-        renderer->SetBackground2(30 / 255.0, 34 / 255.0, 48 / 255.0);
+        renderer->SetBackground(ground_low.r / 255.0, ground_low.g / 255.0,
+                                ground_low.b / 255.0);
+        renderer->SetBackground2(ground_high.r / 255.0, ground_high.g / 255.0,
+                                 ground_high.b / 255.0);
         window->AddRenderer(renderer);
         point_camera(renderer->GetActiveCamera(), *viewpoint);
         *figure = new pm_figure{*viewpoint, window, renderer,
                                 (1.0 - PM_VIEWPOINT_TOP) * viewpoint->height};
+        cover_margins(*figure);
         return PM_OK;
     });
 }
