@@ -26,7 +26,8 @@ static const pm_options_program program = {
         "n global-photons caustic-photons roulette max-bounces packing o dump check-file "
         "report",
     .notes = "-o FILE.ply writes the global map; a caustic map, where the scene has caustics,\n"
-             "goes beside it as FILE.caustic.ply.\n"
+             "goes beside it as FILE.caustic.ply. Their x y z are the scene's less the centre\n"
+             "that a comment in their header names; --dump writes the scene's own.\n"
              "--dump writes the photons as x,y,z,dx,dy,dz,r,g,b,map,path,bounce,light; path\n"
              "spells the events from the light to the deposit (L, S specular, D diffuse).",
 };
