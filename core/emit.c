@@ -6,6 +6,7 @@
 #include "shape.h"
 
 #include <stddef.h>
+#include <string.h>
 
 static double light_power(const pm_light *light)
 {
@@ -56,8 +57,8 @@ pm_status pm_emit_share(const pm_scene *scene, uint64_t count, uint64_t *share)
         powered += light_power(&scene->lights[i]) > 0.0;
     }
     if (powered == 0) {
-        return pm_status_fail(PM_EINPUT, "%s: no light has any power; no photon can be emitted",
-                              scene->path);
+        memset(share, 0, (size_t)scene->light_count * sizeof *share);
+        return PM_OK;
     }
     if (count < powered || count > PM_EMIT_MAX) {
         return pm_status_fail(

@@ -40,11 +40,11 @@ typedef struct {
 
 /// Shares `count` photons among the lights by power (mean of the three channels).
 ///
-/// A light of 0 W gets none, every other light at least one; the shares add up to `count`.
+/// A light of 0 W gets none, every other light at least one; the shares add up to `count`, or
+/// to 0 when no light has any power.
 ///
 /// @param share  [out] scene->light_count numbers
-/// @return PM_EINPUT when no light has power, or `count` is below the number of lights that
-/// have
+/// @return PM_EINPUT when `count` is below the number of lights that have power
 pm_status pm_emit_share(const pm_scene *scene, uint64_t count, uint64_t *share);
 
 /// Two uniform numbers in [0,1)^2 inside a lit cell, every lit cell equally likely; plain

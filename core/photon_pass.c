@@ -285,6 +285,16 @@ static pm_status outcome(const pm_pass *pass)
     return PM_OK;
 }
 
+/// Whether no light got a photon: none has any power.
+static bool is_dark(const pm_scene *scene, const uint64_t *share)
+{
+    uint64_t sum = 0;
+    for (int i = 0; i < scene->light_count; i++) {
+        sum += share[i];
+    }
+    return sum == 0;
+}
+
 /// Runs the pass into `map` and `report`, both fresh.
 static pm_status run(const pm_intersector *world, pm_map_kind kind,
                      const pm_pass_settings *settings, pm_photon_map *map,
@@ -293,6 +303,10 @@ static pm_status run(const pm_intersector *world, pm_map_kind kind,
     double start = pm_seconds_now();
     pm_pass pass = {.settings = settings, .map = map, .report = report};
     PM_TRY(prepare(world, kind, settings, report->share, &pass.emission, &pass.tracing));
+    if (is_dark(world->scene, report->share)) {
+        map->scaled = true;
+        return PM_OK;
+    }
     pass.progress = pm_progress_begin("tracing", settings->count);
     run_chunks(&pass);
     pm_progress_end(&pass.progress);
@@ -380,6 +394,11 @@ pm_status pm_photon_replay(const pm_intersector *world, pm_map_kind kind,
     tracing.sink = *sink;
     if (sink->deposit == NULL) {
         tracing.sink.deposit = ignore_deposit;
+    }
+    if (status == PM_OK && is_dark(world->scene, share)) {
+        status =
+            pm_status_fail(PM_EINPUT, "%s: no light has any power: there is no photon %llu",
+                           world->scene->path, (unsigned long long)photon);
     }
     if (status == PM_OK) {
         status = replay(&emission, &tracing, photon, light);

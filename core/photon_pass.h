@@ -30,7 +30,8 @@ typedef struct {
     double emit_cpu, trace_cpu, store_cpu; // [s] summed over the threads
 } pm_pass_report;
 
-/// Emits, traces, stores and scales the map of `kind` (global or caustic).
+/// Emits, traces, stores and scales the map of `kind` (global or caustic). Where no light has
+/// any power nothing is emitted, and the map is empty.
 ///
 /// @param map     [out] trimmed and scaled; untouched unless PM_OK
 /// @param report  [out] may be NULL

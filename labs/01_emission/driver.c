@@ -41,6 +41,16 @@ static void write_ray(const pm_job *job, const pm_start *start)
             start->light);
 }
 
+/// The photons that the lights send: none where no light has any power.
+static uint64_t shared_out(const pm_job *job)
+{
+    uint64_t sum = 0;
+    for (int i = 0; i < job->world.scene.light_count; i++) {
+        sum += job->share[i];
+    }
+    return sum;
+}
+
 static pm_status emit_all(pm_job *job)
 {
     pm_emission emission = {
@@ -50,8 +60,9 @@ static pm_status emit_all(pm_job *job)
         .share = job->share,
     };
     pm_start starts[BATCH];
-    for (uint64_t first = 0; first < job->count; first += BATCH) {
-        uint64_t left = job->count - first;
+    uint64_t count = shared_out(job);
+    for (uint64_t first = 0; first < count; first += BATCH) {
+        uint64_t left = count - first;
         uint32_t batch = left < BATCH ? (uint32_t)left : BATCH;
         PM_TRY(pm_emit_photons(&emission, first, batch, starts));
         for (uint32_t i = 0; i < batch; i++) {
@@ -73,6 +84,9 @@ static pm_status report(const pm_job *job)
         const pm_light *light = &scene->lights[i];
         printf("%-20s %12llu photons %14.6g W\n", light->id, (unsigned long long)job->share[i],
                pm_spectrum_mean(light->flux));
+    }
+    if (shared_out(job) == 0 && !job->options->json) {
+        printf("%s: no light has any power: nothing is emitted\n", scene->path);
     }
     json_t *object =
         pm_report_add(json_object(), "lights", pm_report_lights(scene, job->share));

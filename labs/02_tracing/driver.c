@@ -112,13 +112,18 @@ static json_t *bounces(const pm_audit *audit)
     return array;
 }
 
+static double deposits_each(const pm_pass_report *pass)
+{
+    return pass->emitted == 0 ? 0.0 : (double)pass->deposits / (double)pass->emitted;
+}
+
 static void print_books(const pm_job *job)
 {
     const pm_pass_report *pass = &job->pass;
     const pm_audit *audit = &pass->audit;
     printf("%llu photons emitted, %llu deposits, %.4f a photon\n",
            (unsigned long long)pass->emitted, (unsigned long long)pass->deposits,
-           (double)pass->deposits / (double)pass->emitted);
+           deposits_each(pass));
     printf("%-12s %14s %14s %14s\n", "power [W]", "red", "green", "blue");
     const struct {
         const char *name;
@@ -140,7 +145,7 @@ static pm_status report(const pm_job *job)
     if (!job->options->json) {
         print_books(job);
     }
-    double each = (double)pass->deposits / (double)pass->emitted;
+    double each = deposits_each(pass);
     json_t *object =
         json_pack("{s:I,s:I,s:f}", "emitted", (json_int_t)pass->emitted, "deposits",
                   (json_int_t)pass->deposits, "deposits_per_photon", each);
