@@ -154,7 +154,7 @@ static void run_chunk(pm_pass *pass, pm_pass_worker *worker, uint64_t chunk)
 #pragma omp ordered
     {
         if (pm_interrupted() && !pass->done) {
-            status = pm_status_fail(PM_ESTOPPED, "stopped by the user");
+            status = pm_interrupt_check();
         }
         if (!pass->done && status == PM_OK) {
             status = singly ? append_singly(pass, worker, first, count)
