@@ -2,6 +2,7 @@
 // nor the books depend on how many threads there are.
 #include "photon_pass.h"
 
+#include "caps.h"
 #include "clock.h"
 #include "interrupt.h"
 #include "photon_map.h"
@@ -13,9 +14,6 @@
 
 #define CHUNK 1024u
 #define ROUND 1024 // chunks between looks at whether more are wanted
-#define DIFFUSE_CAP 10000u
-#define DIFFUSE_CAP_ABOVE 0.9999 // albedo from which on paths need a cap
-#define SPECULAR_CAP 1000u
 
 /// What all threads share.
 typedef struct {
@@ -231,25 +229,6 @@ static void run_chunks(pm_pass *pass)
     }
 }
 
-static bool needs_cap(const pm_scene *scene)
-{
-    for (int i = 0; i < scene->material_count; i++) {
-        const pm_material *material = &scene->materials[i];
-        if (material->type == PM_BSDF_DIFFUSE &&
-            pm_spectrum_max(material->reflectance) > DIFFUSE_CAP_ABOVE) {
-            return true;
-        }
-    }
-    return false;
-}
-
-void pm_photon_pass_caps(const pm_scene *scene, uint32_t asked, uint32_t *max_bounces,
-                         uint32_t *max_specular)
-{
-    *max_bounces = asked != 0 ? asked : needs_cap(scene) ? DIFFUSE_CAP : UINT32_MAX;
-    *max_specular = asked != 0 ? asked : SPECULAR_CAP;
-}
-
 /// What both stages are told. Shares the photons out among the lights.
 static pm_status prepare(const pm_intersector *world, pm_map_kind kind,
                          const pm_pass_settings *settings, uint64_t *share,
@@ -264,8 +243,9 @@ static pm_status prepare(const pm_intersector *world, pm_map_kind kind,
         .rule = settings->rule,
         .caustic_only = kind == PM_MAP_CAUSTIC,
     };
-    pm_photon_pass_caps(world->scene, settings->max_bounces, &tracing->max_bounces,
-                        &tracing->max_specular);
+    pm_caps caps = pm_caps_of(world->scene, settings->max_bounces);
+    tracing->max_bounces = caps.bounces;
+    tracing->max_specular = caps.specular;
     return pm_emit_share(world->scene, settings->count, share);
 }
 

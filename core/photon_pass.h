@@ -13,7 +13,7 @@ typedef struct {
     uint64_t count;  // photons to emit; with `stored` the most to emit
     uint64_t stored; // stop with the photon that fills this number; 0: emit all
     pm_roulette_rule rule;
-    uint32_t max_bounces;             // 0: the rule of the design (pm_photon_pass_caps)
+    uint32_t max_bounces;             // 0: the rule of the design (caps.h)
     bool unpacked;                    // keep exact powers and directions
     const pm_projection *projections; // one a light, or NULL
     pm_trace_sink tap; // sees every deposit that is stored, and every event, in photon order;
@@ -51,11 +51,6 @@ pm_status pm_photon_pass(const pm_intersector *world, pm_map_kind kind,
 pm_status pm_photon_replay(const pm_intersector *world, pm_map_kind kind,
                            const pm_pass_settings *settings, uint64_t photon,
                            const pm_trace_sink *sink, uint32_t *light);
-
-/// The caps in force: `asked` for both if it is not 0; else no cap on events unless a diffuse
-/// albedo exceeds 0.9999 (then 10,000), and 1,000 specular events in a row.
-void pm_photon_pass_caps(const pm_scene *scene, uint32_t asked, uint32_t *max_bounces,
-                         uint32_t *max_specular);
 
 void pm_pass_report_free(pm_pass_report *report);
 

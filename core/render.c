@@ -3,6 +3,7 @@
 #include "render.h"
 
 #include "camera.h"
+#include "caps.h"
 #include "clock.h"
 #include "lattice.h"
 #include "photon_dots.h"
@@ -40,13 +41,12 @@ static void choose_layers(const pm_render_settings *settings, bool wanted[PM_LAY
 static void worker_set_up(const pm_eye_pass *pass, pm_eye_worker *worker)
 {
     const pm_render_settings *settings = pass->settings;
-    uint32_t unused;
     worker->compose.world = pass->world;
     worker->compose.source = (pm_rng_source){settings->seed, PM_STREAM_CAMERA, 0};
     worker->compose.rule = settings->roulette;
     worker->compose.splits = SPLITS;
-    pm_photon_pass_caps(pass->world->scene, settings->max_bounces, &unused,
-                        &worker->compose.max_specular);
+    worker->compose.max_specular =
+        pm_caps_of(pass->world->scene, settings->max_bounces).specular;
     choose_layers(settings, worker->compose.wanted);
     worker->gather.settings = settings->light;
     for (int kind = 0; kind < PM_MAP_COUNT; kind++) {

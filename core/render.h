@@ -13,7 +13,7 @@ typedef struct {
     uint64_t photons[PM_MAP_COUNT]; // to emit; 0: the map is off by choice
     uint64_t stored;                // emit until each map holds this many instead; 0: off
     pm_roulette_rule roulette;
-    uint32_t max_bounces; // 0: the rule of pm_photon_pass_caps()
+    uint32_t max_bounces; // 0: the rule of pm_caps_of()
     bool unpacked;
     pm_gather_settings light;
     int only;          // one pm_layer, or PM_NONE for all

@@ -2,6 +2,7 @@
 // photon, books, memory, and failures that leave nothing behind.
 #include "photon_pass.h"
 
+#include "caps.h"
 #include "interrupt.h"
 #include "map_power.h"
 #include "photon_map.h"
@@ -241,10 +242,8 @@ static void caps_follow_the_albedos(void)
     for (int i = 0; i < 5; i++) {
         pm_scenes s;
         plain_room(&s, cases[i].albedo);
-        uint32_t bounces;
-        uint32_t specular;
-        pm_photon_pass_caps(&s.scene, cases[i].asked, &bounces, &specular);
-        CHECK(bounces == cases[i].bounces && specular == cases[i].specular);
+        pm_caps caps = pm_caps_of(&s.scene, cases[i].asked);
+        CHECK(caps.bounces == cases[i].bounces && caps.specular == cases[i].specular);
         pm_scenes_free(&s);
     }
 }
@@ -284,6 +283,44 @@ static void failures_tell_their_own_message(void)
                     words);
     }
     CHECK(map.count == 77 && map.photons == NULL);
+    pm_scenes_free(&s);
+}
+
+/// The events of one photon: how many, and a sum that any change of one would change.
+typedef struct {
+    uint64_t photon;
+    uint32_t events;
+    double sum;
+} retold;
+
+static void retell(void *context, const pm_start *start, const pm_event *event)
+{
+    retold *r = context;
+    if (start->photon == r->photon) {
+        r->events++;
+        r->sum += r->events * (event->position.x + event->carried.c[1] + (double)event->bounce);
+    }
+}
+
+static void replay_repeats_the_pass(void)
+{
+    pm_scenes s;
+    plain_room(&s, 0.8);
+    for (uint64_t photon = 0; photon < 3000; photon += 997) {
+        retold in_pass = {.photon = photon};
+        retold alone = {.photon = photon};
+        pm_pass_settings settings = {.seed = 3, .count = 3000, .tap = {&in_pass, NULL, retell}};
+        pm_photon_map map;
+        uint32_t light;
+        CHECK_OK(pm_photon_pass(&s.world, PM_MAP_GLOBAL, &settings, &map, NULL));
+        pm_photon_map_free(&map);
+        pm_trace_sink sink = {.context = &alone, .event = retell};
+        CHECK_OK(pm_photon_replay(&s.world, PM_MAP_GLOBAL, &settings, photon, &sink, &light));
+        CHECK(in_pass.events > 0 && in_pass.events == alone.events);
+        CHECK_NEAR(alone.sum, in_pass.sum, 0.0);
+        CHECK_FAILS(pm_photon_replay(&s.world, PM_MAP_GLOBAL, &settings, 3000, &sink, &light),
+                    PM_EINPUT, "no photon 3000");
+    }
     pm_scenes_free(&s);
 }
 
@@ -354,4 +391,6 @@ PM_TESTS({"photon_pass.1", "one, two and seven threads fill the same bytes and b
          {"photon_pass.12", "a tap's refusal stops the pass", tap_can_stop},
          {"photon_pass.13", "an interrupt stops the pass", interrupt_stops_a_pass},
          {"photon_pass.20", "without power there is an empty map and no fault",
-          darkness_gives_an_empty_map})
+          darkness_gives_an_empty_map},
+         {"photon_pass.21", "a photon replayed alone does what it did in the pass",
+          replay_repeats_the_pass})
