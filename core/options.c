@@ -46,7 +46,6 @@ pm_options pm_options_defaults(void)
         .runs = 1,
         .depth = 5,
         .paths = 150,
-        .tree = "balanced",
         .seed = 1,
     };
 }

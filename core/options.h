@@ -36,27 +36,24 @@ typedef struct {
     // picture
     uint32_t gather; // directions of a final gather; 0: global map seen directly
     uint32_t spp;
-    bool direct_by_photons;  // --direct photons
-    bool caustics_by_global; // --caustics global
-    bool view_photons;       // --view photons
-    int width, height;       // --size; 0: the scene's
-    int only;                // a pm_layer; -1: all
-    const char *preset;      // NULL: none
-    bool explain;            // say the plan and stop
-    bool check_scene;        // render --check: validate the scene and stop
-    double exposure;         // stops, of --png
+    bool view_photons;  // --view photons
+    int width, height;  // --size; 0: the scene's
+    int only;           // a pm_layer; -1: all
+    const char *preset; // NULL: none
+    bool explain;       // say the plan and stop
+    bool check_scene;   // render --check: validate the scene and stop
+    double exposure;    // stops, of --png
 
     // places
     bool has_at, has_normal;
-    pm_vec3 at;          // the scene file's coordinates: subtract its centre
-    pm_vec3 normal;      // unit
-    const char *points;  // file of points
-    const char *on;      // id of a rectangle that is covered by a grid of points
-    int grid_w, grid_h;  // --grid; 0: not given
-    uint32_t runs;       // independent maps
-    bool has_photon;     // --photon was given
-    uint64_t photon;     // replay this one
-    const char *channel; // of a picture, for view
+    pm_vec3 at;         // the scene file's coordinates: subtract its centre
+    pm_vec3 normal;     // unit
+    const char *points; // file of points
+    const char *on;     // id of a rectangle that is covered by a grid of points
+    int grid_w, grid_h; // --grid; 0: not given
+    uint32_t runs;      // independent maps
+    bool has_photon;    // --photon was given
+    uint64_t photon;    // replay this one
 
     // files in and out
     const char *output; // -o
@@ -68,7 +65,6 @@ typedef struct {
     int map_count;
     const char *difference; // compare --map FILE.png
     const char *title;
-    const char *tree; // "balanced"
 
     // view
     const char *scene; // that the data came from

@@ -59,7 +59,7 @@ typedef struct {
 } pm_photon_exact;
 
 /// All photons of one class. Zero-initialised with a kind it is valid and empty.
-/// Owned by whoever filled it; freed by pm_store_free().
+/// Owned by whoever filled it; freed by pm_photon_map_free().
 typedef struct {
     pm_map_kind kind;
     bool unpacked;          // keep `exact`; set before the first photon

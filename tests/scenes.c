@@ -207,3 +207,48 @@ pm_vec3 pm_scenes_slant(double cosine)
     double sine = sqrt((1.0 - cosine) * (1.0 + cosine));
     return pm_vec(sine * 0.6, sine * 0.8, cosine);
 }
+
+void pm_scenes_balls(pm_scenes *s)
+{
+    pm_scenes_begin(s);
+    pm_scenes_room(s, 1.0, pm_scenes_diffuse(s, pm_rgb(0.7, 0.5, 0.3)));
+    pm_shape mirror = pm_shapes_sphere(pm_vec(-0.4, 0.2, -0.6), 0.4);
+    pm_shape glass = pm_shapes_sphere(pm_vec(0.45, -0.2, -0.55), 0.4);
+    pm_scenes_wear(s, mirror, pm_scenes_mirror(s, pm_gray(0.9)));
+    pm_scenes_wear(s, glass, pm_scenes_glass(s, 1.5));
+    int lamp = pm_scenes_add(s, pm_scenes_square(0.5, 1.0, true), 0, PM_NONE);
+    pm_scenes_lamp(s, lamp, pm_gray(2.0));
+    pm_scenes_point(s, pm_vec(0.1, 0.0, 0.8), pm_rgb(1.0, 2.0, 1.0));
+    pm_scenes_ready(s);
+}
+
+void pm_scenes_lit_room(pm_scenes *s, double albedo)
+{
+    pm_scenes_begin(s);
+    pm_scenes_room(s, 1.0, pm_scenes_diffuse(s, pm_gray(albedo)));
+    pm_scenes_point(s, pm_vec(0.1, 0.0, 0.2), pm_gray(3.0));
+    pm_scenes_ready(s);
+}
+
+void pm_scenes_glass_sheet(pm_scenes *s, double ior)
+{
+    pm_scenes_begin(s);
+    int glass = pm_scenes_glass(s, ior);
+    pm_scenes_sheet(s, glass, glass);
+}
+
+const pm_lobe *pm_scenes_lobe(const pm_lobes *lobes, pm_lobe_type type)
+{
+    for (int i = 0; i < lobes->count; i++) {
+        if (lobes->lobe[i].type == type) {
+            return &lobes->lobe[i];
+        }
+    }
+    return NULL;
+}
+
+double pm_scenes_reflected(const pm_lobes *lobes)
+{
+    const pm_lobe *lobe = pm_scenes_lobe(lobes, PM_LOBE_REFLECT);
+    return lobe == NULL ? 0.0 : lobe->albedo.c[0];
+}

@@ -70,4 +70,17 @@ pm_lobes pm_scenes_lobes(const pm_scenes *s, pm_vec3 wi);
 /// A unit direction at this cosine to +z; a negative one points below.
 pm_vec3 pm_scenes_slant(double cosine);
 
+/// A room with a mirror ball, a glass ball, a lamp and a coloured point light; ready.
+void pm_scenes_balls(pm_scenes *s);
+
+/// A diffuse room of this albedo around a point light of 3 W; ready.
+void pm_scenes_lit_room(pm_scenes *s, double albedo);
+
+/// One sheet of glass, as pm_scenes_sheet() lays it; begun and ready.
+void pm_scenes_glass_sheet(pm_scenes *s, double ior);
+
+/// The lobe of this type, or NULL; and the albedo of the mirrored one, 0 without.
+const pm_lobe *pm_scenes_lobe(const pm_lobes *lobes, pm_lobe_type type);
+double pm_scenes_reflected(const pm_lobes *lobes);
+
 #endif

@@ -1,5 +1,6 @@
 // Pictures as EXR: every bit comes back, whatever the threads; what is cut or garbage is
 // refused; a full disk leaves nothing.
+#include "bytes.h"
 #include "exr.h"
 #include "test.h"
 
@@ -41,24 +42,6 @@ static pm_image make_picture(int width, int height)
     return image;
 }
 
-static uint8_t *read_bytes(const char *path, size_t *size)
-{
-    FILE *stream = fopen(path, "rb");
-    CHECK(stream != NULL);
-    uint8_t *bytes = malloc(1 << 22);
-    *size = fread(bytes, 1, 1 << 22, stream);
-    fclose(stream);
-    return bytes;
-}
-
-static void write_bytes(const char *path, const uint8_t *bytes, size_t size)
-{
-    FILE *stream = fopen(path, "wb");
-    CHECK(stream != NULL);
-    CHECK(fwrite(bytes, 1, size, stream) == size);
-    CHECK(fclose(stream) == 0);
-}
-
 static void every_bit_comes_back(void)
 {
     static const int sizes[4][2] = {{1, 1}, {7, 33}, {64, 16}, {33, 50}};
@@ -89,7 +72,7 @@ static void threads_do_not_change_bytes(void)
         size_t size;
         omp_set_num_threads(threads[i]);
         CHECK_OK(pm_exr_write(path_of("a.exr"), &image));
-        uint8_t *bytes = read_bytes(path_of("a.exr"), &size);
+        uint8_t *bytes = pm_bytes_read(path_of("a.exr"), &size);
         if (i == 0) {
             first = bytes;
             first_size = size;
@@ -189,10 +172,10 @@ static void every_cut_is_refused(void)
     size_t size;
     CHECK_OK(pm_exr_write(path_of("a.exr"), &image));
     pm_image_free(&image);
-    uint8_t *bytes = read_bytes(path_of("a.exr"), &size);
+    uint8_t *bytes = pm_bytes_read(path_of("a.exr"), &size);
     for (size_t cut = 0; cut < size; cut += cut < 500 ? 1 : 97) {
         pm_image back = {.width = 7};
-        write_bytes(path_of("cut.exr"), bytes, cut);
+        pm_bytes_write(path_of("cut.exr"), bytes, cut);
         CHECK_FAILS(pm_exr_read(path_of("cut.exr"), &back), PM_EINPUT,
                     "cut.exr: cannot be read as a picture: ");
         CHECK(back.width == 7);
@@ -207,12 +190,12 @@ static void garbage_is_survived(void)
     size_t size;
     CHECK_OK(pm_exr_write(path_of("a.exr"), &image));
     pm_image_free(&image);
-    uint8_t *bytes = read_bytes(path_of("a.exr"), &size);
+    uint8_t *bytes = pm_bytes_read(path_of("a.exr"), &size);
     int refused = 0;
     for (size_t at = 0; at < size; at += at < 500 ? 1 : 41) {
         pm_image back = {0};
         bytes[at] ^= (uint8_t)(1 << at % 8);
-        write_bytes(path_of("bad.exr"), bytes, size);
+        pm_bytes_write(path_of("bad.exr"), bytes, size);
         bytes[at] ^= (uint8_t)(1 << at % 8);
         refused += pm_exr_read(path_of("bad.exr"), &back) != PM_OK;
         pm_status_clear();
@@ -220,7 +203,7 @@ static void garbage_is_survived(void)
     }
     CHECK(refused > 100);
     memset(bytes, 0x5a, size);
-    write_bytes(path_of("bad.exr"), bytes, size);
+    pm_bytes_write(path_of("bad.exr"), bytes, size);
     pm_image back;
     CHECK_FAILS(pm_exr_read(path_of("bad.exr"), &back), PM_EINPUT, "cannot be read");
     free(bytes);
@@ -232,7 +215,7 @@ static void claims_beyond_the_file_are_refused(void)
     size_t size;
     CHECK_OK(pm_exr_write(path_of("a.exr"), &image));
     pm_image_free(&image);
-    uint8_t *bytes = read_bytes(path_of("a.exr"), &size);
+    uint8_t *bytes = pm_bytes_read(path_of("a.exr"), &size);
     for (size_t at = 0; at + 30 < size; at++) {
         if (memcmp(bytes + at, "dataWindow", 11) == 0) {
             static const uint8_t wide[4] = {0xff, 0xff, 0, 0}; // x to 65535
@@ -240,7 +223,7 @@ static void claims_beyond_the_file_are_refused(void)
             memcpy(bytes + at + 11 + 6 + 4 + 12, wide, 4);
         }
     }
-    write_bytes(path_of("wide.exr"), bytes, size);
+    pm_bytes_write(path_of("wide.exr"), bytes, size);
     pm_image back;
     CHECK_FAILS(pm_exr_read(path_of("wide.exr"), &back), PM_EINPUT,
                 "it is too short for the size it claims");
@@ -254,7 +237,7 @@ static void unfinished_files_are_refused(void)
     size_t size;
     CHECK_OK(pm_exr_write(path_of("a.exr"), &image));
     pm_image_free(&image);
-    uint8_t *bytes = read_bytes(path_of("a.exr"), &size);
+    uint8_t *bytes = pm_bytes_read(path_of("a.exr"), &size);
     enum { TABLE = 3 * 8 }; // 40 lines are three chunks of 16
     int emptied = 0;
     for (size_t at = 0; at + TABLE < size; at++) {
@@ -266,7 +249,7 @@ static void unfinished_files_are_refused(void)
         }
     }
     CHECK(emptied == 1);
-    write_bytes(path_of("dead.exr"), bytes, size);
+    pm_bytes_write(path_of("dead.exr"), bytes, size);
     pm_image back;
     CHECK_FAILS(pm_exr_read(path_of("dead.exr"), &back), PM_EINPUT, "dead.exr: cannot be read");
     free(bytes);
@@ -278,7 +261,7 @@ static void what_is_no_picture_is_refused(void)
     CHECK_FAILS(pm_exr_read(path_of("none.exr"), &image), PM_EIO,
                 "none.exr: cannot be read: No such file");
     CHECK_FAILS(pm_exr_read(pm_test_folder(), &image), PM_EIO, "it is a directory");
-    write_bytes(path_of("empty.exr"), (const uint8_t *)"", 0);
+    pm_bytes_write(path_of("empty.exr"), (const uint8_t *)"", 0);
     CHECK_FAILS(pm_exr_read(path_of("empty.exr"), &image), PM_EINPUT, "empty.exr: cannot");
     pm_image bare = {.width = 1, .height = 1};
     CHECK_FAILS(pm_exr_write(path_of("b.exr"), &bare), PM_EINPUT, "needs a channel");

@@ -9,32 +9,9 @@
 
 static const pm_rng_source source = {.seed = 3, .stream = PM_STREAM_TEST};
 
-static void glass_sheet(pm_scenes *s, double ior)
-{
-    pm_scenes_begin(s);
-    int glass = pm_scenes_glass(s, ior);
-    pm_scenes_sheet(s, glass, glass);
-}
-
-static const pm_lobe *lobe_of(const pm_lobes *lobes, pm_lobe_type type)
-{
-    for (int i = 0; i < lobes->count; i++) {
-        if (lobes->lobe[i].type == type) {
-            return &lobes->lobe[i];
-        }
-    }
-    return NULL;
-}
-
-static double reflected(const pm_lobes *lobes)
-{
-    const pm_lobe *lobe = lobe_of(lobes, PM_LOBE_REFLECT);
-    return lobe == NULL ? 0.0 : lobe->albedo.c[0];
-}
-
 static double transmitted(const pm_lobes *lobes)
 {
-    const pm_lobe *lobe = lobe_of(lobes, PM_LOBE_TRANSMIT);
+    const pm_lobe *lobe = pm_scenes_lobe(lobes, PM_LOBE_TRANSMIT);
     return lobe == NULL ? 0.0 : lobe->albedo.c[0];
 }
 
@@ -68,10 +45,10 @@ static void glass_keeps_power(void)
 {
     for (int i = 0; i < INDICES; i++) {
         pm_scenes s;
-        glass_sheet(&s, indices[i]);
+        pm_scenes_glass_sheet(&s, indices[i]);
         for (int j = -STEPS; j <= STEPS; j++) {
             pm_lobes lobes = pm_scenes_lobes(&s, pm_scenes_slant((double)j / STEPS));
-            double r = reflected(&lobes);
+            double r = pm_scenes_reflected(&lobes);
             CHECK(r >= 0.0 && r <= 1.0);
             CHECK_NEAR(r + transmitted(&lobes), 1.0, 1e-15);
             CHECK(!lobes.diffuse && !lobes.passes);
@@ -84,13 +61,15 @@ static void glass_follows_fresnel(void)
 {
     for (int i = 0; i < INDICES; i++) {
         pm_scenes s;
-        glass_sheet(&s, indices[i]);
+        pm_scenes_glass_sheet(&s, indices[i]);
         for (int j = 1; j <= STEPS; j++) {
             double cosine = (double)j / STEPS;
             pm_lobes outside = pm_scenes_lobes(&s, pm_scenes_slant(cosine));
             pm_lobes inside = pm_scenes_lobes(&s, pm_scenes_slant(-cosine));
-            CHECK_NEAR(reflected(&outside), complex_reflectance(cosine, 1.0, indices[i]), 1e-9);
-            CHECK_NEAR(reflected(&inside), complex_reflectance(cosine, indices[i], 1.0), 1e-9);
+            CHECK_NEAR(pm_scenes_reflected(&outside),
+                       complex_reflectance(cosine, 1.0, indices[i]), 1e-9);
+            CHECK_NEAR(pm_scenes_reflected(&inside),
+                       complex_reflectance(cosine, indices[i], 1.0), 1e-9);
         }
         pm_scenes_free(&s);
     }
@@ -103,12 +82,12 @@ static void glass_straight_on(void)
         {1.5, 0.04}, {1.5168, 0.042165}, {1.0, 0.0}, {3.0, 0.25}};
     for (int i = 0; i < 4; i++) {
         pm_scenes s;
-        glass_sheet(&s, known[i][0]);
+        pm_scenes_glass_sheet(&s, known[i][0]);
         pm_lobes outside = pm_scenes_lobes(&s, pm_scenes_slant(1.0));
         pm_lobes inside = pm_scenes_lobes(&s, pm_scenes_slant(-1.0));
         double tolerance = i == 1 ? 5e-7 : 1e-15;
-        CHECK_NEAR(reflected(&outside), known[i][1], tolerance);
-        CHECK_NEAR(reflected(&inside), reflected(&outside), 1e-15);
+        CHECK_NEAR(pm_scenes_reflected(&outside), known[i][1], tolerance);
+        CHECK_NEAR(pm_scenes_reflected(&inside), pm_scenes_reflected(&outside), 1e-15);
         pm_scenes_free(&s);
     }
 }
@@ -119,12 +98,12 @@ static void critical_angle(void)
     for (int i = 0; i < 5000; i++) {
         double ior = 1.0 + 0.0005 * (i + 1);
         pm_scenes s;
-        glass_sheet(&s, ior);
+        pm_scenes_glass_sheet(&s, ior);
         double critical = sqrt((ior - 1.0) * (ior + 1.0)) / ior;
         for (int j = -200; j <= 200; j += 20) {
             double cosine = critical * (1.0 + j * 0x1p-52);
             pm_lobes lobes = pm_scenes_lobes(&s, pm_scenes_slant(-cosine));
-            double r = reflected(&lobes);
+            double r = pm_scenes_reflected(&lobes);
             CHECK_THAT(r <= 1.0 && r > 0.99, "index %.17g, cosine %.17g: %.17g", ior, cosine,
                        r);
             CHECK(lobes.cos_beyond >= 0.0 && lobes.cos_beyond < 1e-4);
@@ -137,25 +116,26 @@ static void critical_angle(void)
 static void total_reflection_has_one_lobe(void)
 {
     pm_scenes s;
-    glass_sheet(&s, 1.5);
+    pm_scenes_glass_sheet(&s, 1.5);
     for (double degrees = 41.82; degrees < 90.0; degrees += 0.01) {
         pm_lobes lobes = pm_scenes_lobes(&s, pm_scenes_slant(-cos(degrees * PM_PI / 180.0)));
-        CHECK(lobes.count == 1 && reflected(&lobes) == 1.0);
+        CHECK(lobes.count == 1 && pm_scenes_reflected(&lobes) == 1.0);
     }
     pm_lobes before = pm_scenes_lobes(&s, pm_scenes_slant(-cos(41.80 * PM_PI / 180.0)));
-    CHECK(before.count == 2 && reflected(&before) < 1.0);
+    CHECK(before.count == 2 && pm_scenes_reflected(&before) < 1.0);
     pm_scenes_free(&s);
 }
 
 static void grazing_light(void)
 {
     pm_scenes s;
-    glass_sheet(&s, 1.5);
+    pm_scenes_glass_sheet(&s, 1.5);
     // 1 - 2 c (n + 1/n) n / sqrt(n^2 - 1) to first order in the cosine c.
     pm_lobes lobes = pm_scenes_lobes(&s, pm_scenes_slant(1e-9));
-    CHECK_NEAR(reflected(&lobes), 1.0 - 2e-9 * (1.5 + 1.0 / 1.5) * 1.5 / sqrt(1.25), 1e-15);
+    CHECK_NEAR(pm_scenes_reflected(&lobes), 1.0 - 2e-9 * (1.5 + 1.0 / 1.5) * 1.5 / sqrt(1.25),
+               1e-15);
     lobes = pm_scenes_lobes(&s, pm_scenes_slant(0.0));
-    CHECK_NEAR(reflected(&lobes), 1.0, 0.0);
+    CHECK_NEAR(pm_scenes_reflected(&lobes), 1.0, 0.0);
     pm_scenes_free(&s);
 }
 
@@ -163,12 +143,12 @@ static void index_one_is_not_there(void)
 {
     static const double cosines[6] = {1.0, 0.3, 1e-4, 1e-9, 1e-200, 0.0};
     pm_scenes s;
-    glass_sheet(&s, 1.0);
+    pm_scenes_glass_sheet(&s, 1.0);
     for (int i = 0; i < 6; i++) {
         for (int side = -1; side <= 1; side += 2) {
             pm_vec3 wi = pm_scenes_slant(side * cosines[i]);
             pm_lobes lobes = pm_scenes_lobes(&s, wi);
-            CHECK_NEAR(reflected(&lobes), 0.0, 0.0);
+            CHECK_NEAR(pm_scenes_reflected(&lobes), 0.0, 0.0);
             CHECK(lobes.count == 1 && transmitted(&lobes) == 1.0);
             pm_rng rng = pm_rng_at(&source, 0, 0);
             pm_scatter turn;
@@ -196,7 +176,7 @@ static void metal_follows_fresnel(void)
         for (int j = 0; j <= STEPS; j++) {
             double cosine = (double)j / STEPS;
             pm_lobes lobes = pm_scenes_lobes(&s, pm_scenes_slant(j % 2 ? -cosine : cosine));
-            const pm_lobe *lobe = lobe_of(&lobes, PM_LOBE_REFLECT);
+            const pm_lobe *lobe = pm_scenes_lobe(&lobes, PM_LOBE_REFLECT);
             CHECK(lobes.count == 1 && lobe->specular);
             CHECK_NEAR(lobe->albedo.c[0], complex_reflectance(cosine, 1.0, index_of(eta, k)),
                        1e-12);

@@ -8,36 +8,13 @@
 enum { STEPS = 1000 };
 static const pm_rng_source source = {.seed = 3, .stream = PM_STREAM_TEST};
 
-static void glass_sheet(pm_scenes *s, double ior)
-{
-    pm_scenes_begin(s);
-    int glass = pm_scenes_glass(s, ior);
-    pm_scenes_sheet(s, glass, glass);
-}
-
-static const pm_lobe *lobe_of(const pm_lobes *lobes, pm_lobe_type type)
-{
-    for (int i = 0; i < lobes->count; i++) {
-        if (lobes->lobe[i].type == type) {
-            return &lobes->lobe[i];
-        }
-    }
-    return NULL;
-}
-
-static double reflected(const pm_lobes *lobes)
-{
-    const pm_lobe *lobe = lobe_of(lobes, PM_LOBE_REFLECT);
-    return lobe == NULL ? 0.0 : lobe->albedo.c[0];
-}
-
 // --- directions
 
 static pm_scatter sampled(const pm_lobes *lobes, pm_lobe_type type)
 {
     pm_rng rng = pm_rng_at(&source, 0, 0);
     pm_scatter scatter;
-    pm_material_sample(lobes, (int)(lobe_of(lobes, type) - lobes->lobe), &rng, &scatter);
+    pm_material_sample(lobes, (int)(pm_scenes_lobe(lobes, type) - lobes->lobe), &rng, &scatter);
     CHECK_NEAR(pm_vec_length(scatter.wo), 1.0, 1e-15);
     CHECK(scatter.pdf == 0.0 && pm_spectrum_mean(scatter.weight) == 1.0);
     return scatter;
@@ -46,7 +23,7 @@ static pm_scatter sampled(const pm_lobes *lobes, pm_lobe_type type)
 static void light_bends_by_snell(void)
 {
     pm_scenes s;
-    glass_sheet(&s, 1.5);
+    pm_scenes_glass_sheet(&s, 1.5);
     for (int j = 1; j <= STEPS; j++) {
         pm_vec3 wi = pm_scenes_slant((double)j / STEPS);
         pm_lobes outside = pm_scenes_lobes(&s, wi);
@@ -59,7 +36,7 @@ static void light_bends_by_snell(void)
         CHECK_NEAR(bent.x, -wi.x / 1.5, 1e-15);
         CHECK_NEAR(bent.y, -wi.y / 1.5, 1e-15);
         pm_lobes inside = pm_scenes_lobes(&s, bent);
-        CHECK_NEAR(reflected(&inside), reflected(&outside), 1e-9);
+        CHECK_NEAR(pm_scenes_reflected(&inside), pm_scenes_reflected(&outside), 1e-9);
         pm_vec3 back = sampled(&inside, PM_LOBE_TRANSMIT).wo;
         CHECK_NEAR(pm_vec_length(pm_vec_sub(back, wi)), 0.0, 1e-9);
     }
@@ -69,7 +46,7 @@ static void light_bends_by_snell(void)
 static void media_and_radiance_by_side(void)
 {
     pm_scenes s;
-    glass_sheet(&s, 1.5);
+    pm_scenes_glass_sheet(&s, 1.5);
     pm_lobes outside = pm_scenes_lobes(&s, pm_scenes_slant(0.8));
     CHECK(outside.medium_here == 0 && outside.medium_beyond == 1);
     CHECK(sampled(&outside, PM_LOBE_REFLECT).medium == 0);

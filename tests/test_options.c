@@ -20,7 +20,7 @@ static const pm_options_program render = {
     .positional_least = 1,
     .positional_most = 1,
     .options = "n photons global-photons caustic-photons k r shape filter kernel-constants "
-               "flatness gather spp exposure direct packing max-bounces at normal size preset "
+               "flatness gather spp exposure packing max-bounces at normal size preset "
                "only o map check report max-rel-mse",
     .needs = "o",
 };
@@ -75,7 +75,7 @@ static void defaults_are_those_of_the_design(void)
     CHECK(o->estimate.constants == PM_CONSTANTS_UNBIASED && !o->estimate.plain_k);
     CHECK_NEAR(o->estimate.flatness, 0.1, 0.0);
     CHECK(o->gather == 64 && o->spp == 4 && o->seed == 1 && o->threads == 0 && o->runs == 1);
-    CHECK(!o->unpacked && !o->direct_by_photons && !o->caustics_by_global && !o->view_photons);
+    CHECK(!o->unpacked && !o->view_photons);
     CHECK(o->roulette == PM_ROULETTE_MAX && o->max_bounces == 0 && o->only == -1);
     CHECK(!o->json && !o->has_at && !o->has_normal && !o->has_max_rel_mse);
 }
@@ -85,7 +85,7 @@ static void every_kind_of_value_arrives(void)
     command c;
     CHECK_OK(parse(&render,
                    "-n 9007199254740992 -k 7 -r 0.5 --shape sphere --filter=gaussian "
-                   "--kernel-constants lecture --packing off --direct photons s.xml "
+                   "--kernel-constants lecture --packing off s.xml "
                    "--exposure -1.5 --at -1,2e1,.5 --normal 0,0,-4 --size 640x480 "
                    "--only indirect --seed 4294967295 -oout.exr --json --max-bounces 3",
                    &c));
@@ -94,7 +94,7 @@ static void every_kind_of_value_arrives(void)
     CHECK(o->estimate.k == 7 && o->k_given && o->estimate.radius == 0.5);
     CHECK(o->estimate.shape == PM_GATHER_SPHERE && o->estimate.filter == PM_FILTER_GAUSSIAN);
     CHECK(o->estimate.constants == PM_CONSTANTS_LECTURE && o->estimate.plain_k);
-    CHECK(o->unpacked && o->direct_by_photons && o->json && o->max_bounces == 3);
+    CHECK(o->unpacked && o->json && o->max_bounces == 3);
     CHECK(o->exposure == -1.5 && o->seed == 4294967295u && o->only == PM_LAYER_INDIRECT);
     CHECK(o->has_at && o->at.x == -1.0 && o->at.y == 20.0 && o->at.z == 0.5);
     CHECK(o->has_normal && o->normal.z == -1.0 && o->normal.x == 0.0);

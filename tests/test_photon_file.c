@@ -1,5 +1,6 @@
 // Photon files: everything comes back bit for bit, and a file that differs in one bit, is cut,
 // or is something else is refused.
+#include "bytes.h"
 #include "photon_file.h"
 #include "photon_header.h"
 #include "photon_map.h"
@@ -112,24 +113,6 @@ static void columns_come_back(void)
     pm_photon_map_free(&map);
 }
 
-static uint8_t *read_bytes(const char *path, size_t *size)
-{
-    FILE *stream = fopen(path, "rb");
-    CHECK(stream != NULL);
-    uint8_t *bytes = malloc(1 << 20);
-    *size = fread(bytes, 1, 1 << 20, stream);
-    fclose(stream);
-    return bytes;
-}
-
-static void write_bytes(const char *path, const uint8_t *bytes, size_t size)
-{
-    FILE *stream = fopen(path, "wb");
-    CHECK(stream != NULL);
-    CHECK(fwrite(bytes, 1, size, stream) == size);
-    CHECK(fclose(stream) == 0);
-}
-
 static void refuse(const char *path, const char *message)
 {
     pm_photon_map map = {.count = 77};
@@ -143,7 +126,7 @@ static uint8_t *make_file(uint32_t count, size_t *size)
     pm_photon_map map = make_map(count, false);
     CHECK_OK(pm_photon_file_write(path_of("m.ply"), &map, &info, NULL));
     pm_photon_map_free(&map);
-    return read_bytes(path_of("m.ply"), size);
+    return pm_bytes_read(path_of("m.ply"), size);
 }
 
 static void layout_is_that_of_the_design(void)
@@ -175,7 +158,7 @@ static void every_altered_bit_is_refused(void)
         pm_photon_map map = {.count = 77};
         pm_photon_file_info told;
         bytes[bit / 8] ^= (uint8_t)(1 << bit % 8);
-        write_bytes(path_of("bad.ply"), bytes, size);
+        pm_bytes_write(path_of("bad.ply"), bytes, size);
         bytes[bit / 8] ^= (uint8_t)(1 << bit % 8);
         pm_status status = pm_photon_file_read(path_of("bad.ply"), &map, &told, NULL);
         CHECK_THAT(status == PM_EINPUT, "bit %zu of byte %zu", bit % 8, bit / 8);
@@ -192,13 +175,13 @@ static void every_cut_is_refused(void)
     uint8_t *bytes = make_file(5, &size);
     size_t header = size - 5 * sizeof(pm_photon);
     for (size_t cut = 0; cut < size; cut++) {
-        write_bytes(path_of("cut.ply"), bytes, cut);
+        pm_bytes_write(path_of("cut.ply"), bytes, cut);
         refuse(path_of("cut.ply"), cut >= header ? "cut.ply: is cut: its 5 photons need"
                                    : cut < 4     ? "is not a PLY file"
                                                  : "");
     }
     bytes[size] = 0;
-    write_bytes(path_of("long.ply"), bytes, size + 1);
+    pm_bytes_write(path_of("long.ply"), bytes, size + 1);
     refuse(path_of("long.ply"), "long.ply: is too long: its 5 photons need");
     free(bytes);
 }
@@ -221,7 +204,7 @@ static void forge(const char *from, const char *to)
     char crc[9];
     snprintf(crc, sizeof crc, "%08lx", crc32(0, forged, (uInt)length));
     memcpy(digits, crc, 8);
-    write_bytes(path_of("forged.ply"), forged, length);
+    pm_bytes_write(path_of("forged.ply"), forged, length);
     free(bytes);
 }
 
@@ -230,12 +213,12 @@ static void other_files_are_named(void)
     static const char mesh[] = "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\n"
                                "element face 0\nproperty list uchar int vertex_indices\n"
                                "end_header\n";
-    write_bytes(path_of("mesh.ply"), (const uint8_t *)mesh, sizeof mesh - 1);
+    pm_bytes_write(path_of("mesh.ply"), (const uint8_t *)mesh, sizeof mesh - 1);
     refuse(path_of("mesh.ply"), "mesh.ply: is a PLY file, but not of photons (a mesh");
     CHECK(!pm_photon_file_is(path_of("mesh.ply")));
-    write_bytes(path_of("text"), (const uint8_t *)"hello\n", 6);
+    pm_bytes_write(path_of("text"), (const uint8_t *)"hello\n", 6);
     refuse(path_of("text"), "text: is not a PLY file");
-    write_bytes(path_of("empty"), (const uint8_t *)"", 0);
+    pm_bytes_write(path_of("empty"), (const uint8_t *)"", 0);
     refuse(path_of("empty"), "empty: is not a PLY file");
     CHECK(!pm_photon_file_is(path_of("empty")) && !pm_photon_file_is(path_of("none")));
     pm_photon_map map;

@@ -18,30 +18,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// A room with a mirror ball, a glass ball, a lamp and a coloured point light.
-static void balls_scene(pm_scenes *s)
-{
-    pm_scenes_begin(s);
-    pm_scenes_room(s, 1.0, pm_scenes_diffuse(s, pm_rgb(0.7, 0.5, 0.3)));
-    pm_shape mirror = pm_shapes_sphere(pm_vec(-0.4, 0.2, -0.6), 0.4);
-    pm_shape glass = pm_shapes_sphere(pm_vec(0.45, -0.2, -0.55), 0.4);
-    pm_scenes_wear(s, mirror, pm_scenes_mirror(s, pm_gray(0.9)));
-    pm_scenes_wear(s, glass, pm_scenes_glass(s, 1.5));
-    int lamp = pm_scenes_add(s, pm_scenes_square(0.5, 1.0, true), 0, PM_NONE);
-    pm_scenes_lamp(s, lamp, pm_gray(2.0));
-    pm_scenes_point(s, pm_vec(0.1, 0.0, 0.8), pm_rgb(1.0, 2.0, 1.0));
-    pm_scenes_ready(s);
-}
-
-/// A diffuse room of this albedo around a point light of 3 W.
-static void plain_room(pm_scenes *s, double albedo)
-{
-    pm_scenes_begin(s);
-    pm_scenes_room(s, 1.0, pm_scenes_diffuse(s, pm_gray(albedo)));
-    pm_scenes_point(s, pm_vec(0.1, 0.0, 0.2), pm_gray(3.0));
-    pm_scenes_ready(s);
-}
-
 static void run(const pm_scenes *s, pm_map_kind kind, pm_pass_settings settings,
                 pm_photon_map *map, pm_pass_report *report)
 {
@@ -77,7 +53,7 @@ static void check_threads(pm_map_kind kind, pm_pass_settings settings)
 {
     static const int threads[3] = {1, 2, 7};
     pm_scenes s;
-    balls_scene(&s);
+    pm_scenes_balls(&s);
     pm_photon_map maps[3];
     pm_pass_report reports[3];
     for (int i = 0; i < 3; i++) {
@@ -113,7 +89,7 @@ static void other_seeds_other_photons(void)
     pm_pass_settings pass = base;
     pass.pass = 1;
     pm_scenes s;
-    balls_scene(&s);
+    pm_scenes_balls(&s);
     pm_photon_map maps[4];
     run(&s, PM_MAP_GLOBAL, base, &maps[0], NULL);
     run(&s, PM_MAP_GLOBAL, base, &maps[1], NULL);
@@ -135,7 +111,7 @@ static void books_match_the_scene(void)
 {
     enum { COUNT = 20000 };
     pm_scenes s;
-    balls_scene(&s);
+    pm_scenes_balls(&s);
     pm_pass_settings settings = {.seed = 1, .count = COUNT, .unpacked = true};
     pm_photon_map map;
     pm_pass_report report;
@@ -168,7 +144,7 @@ static void books_match_the_scene(void)
 static void books_close_by_either_rule(void)
 {
     pm_scenes s;
-    balls_scene(&s);
+    pm_scenes_balls(&s);
     for (int rule = PM_ROULETTE_MAX; rule <= PM_ROULETTE_AVERAGE; rule++) {
         for (uint32_t seed = 1; seed <= 10; seed++) {
             pm_pass_settings settings = {.seed = seed, .count = 3000};
@@ -213,7 +189,7 @@ static pm_status weigh(void *context, const pm_deposit *deposit)
 static void tracing_holds_little_more_than_the_map(void)
 {
     pm_scenes s;
-    plain_room(&s, 0.8);
+    pm_scenes_lit_room(&s, 0.8);
     scale_of_memory scale = {.before = bytes_held()};
     pm_pass_settings settings = {.seed = 1, .count = 60000};
     settings.tap = (pm_trace_sink){&scale, weigh, NULL};
@@ -241,7 +217,7 @@ static void caps_follow_the_albedos(void)
                   {1.0, 7, 7, 7}};
     for (int i = 0; i < 5; i++) {
         pm_scenes s;
-        plain_room(&s, cases[i].albedo);
+        pm_scenes_lit_room(&s, cases[i].albedo);
         pm_caps caps = pm_caps_of(&s.scene, cases[i].asked);
         CHECK(caps.bounces == cases[i].bounces && caps.specular == cases[i].specular);
         pm_scenes_free(&s);
@@ -252,7 +228,7 @@ static void white_room_ends_by_its_cap(void)
 {
     enum { COUNT = 20 };
     pm_scenes s;
-    plain_room(&s, 1.0);
+    pm_scenes_lit_room(&s, 1.0);
     pm_photon_map map;
     pm_pass_report report;
     run(&s, PM_MAP_GLOBAL, (pm_pass_settings){.seed = 1, .count = COUNT}, &map, &report);
@@ -272,7 +248,7 @@ static void failures_tell_their_own_message(void)
     // Whatever an earlier pass left in the threads.
     omp_set_num_threads(4);
     pm_scenes s;
-    plain_room(&s, 0.5);
+    pm_scenes_lit_room(&s, 0.5);
     pm_pass_settings settings = {.seed = 1, .count = 20000};
     pm_photon_map map = {.count = 77};
     for (int type = 70; type < 90; type++) {
@@ -305,7 +281,7 @@ static void retell(void *context, const pm_start *start, const pm_event *event)
 static void replay_repeats_the_pass(void)
 {
     pm_scenes s;
-    plain_room(&s, 0.8);
+    pm_scenes_lit_room(&s, 0.8);
     for (uint64_t photon = 0; photon < 3000; photon += 997) {
         retold in_pass = {.photon = photon};
         retold alone = {.photon = photon};
@@ -327,7 +303,7 @@ static void replay_repeats_the_pass(void)
 static void darkness_gives_an_empty_map(void)
 {
     pm_scenes s;
-    plain_room(&s, 0.5);
+    pm_scenes_lit_room(&s, 0.5);
     s.lights[0].flux = pm_gray(0.0);
     pm_pass_settings settings = {.seed = 1, .count = 20000};
     pm_photon_map map;
@@ -348,7 +324,7 @@ static pm_status refuse_late(void *context, const pm_deposit *deposit)
 static void tap_can_stop(void)
 {
     pm_scenes s;
-    plain_room(&s, 0.5);
+    pm_scenes_lit_room(&s, 0.5);
     pm_pass_settings settings = {.seed = 1, .count = 20000};
     settings.tap.deposit = refuse_late;
     pm_photon_map map = {.count = 77};
@@ -361,7 +337,7 @@ static void tap_can_stop(void)
 static void interrupt_stops_a_pass(void)
 {
     pm_scenes s;
-    plain_room(&s, 0.5);
+    pm_scenes_lit_room(&s, 0.5);
     pm_interrupt_catch();
     raise(SIGINT);
     pm_pass_settings settings = {.seed = 1, .count = 20000};

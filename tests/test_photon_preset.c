@@ -10,30 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// A room with a mirror ball, a glass ball, a lamp and a coloured point light.
-static void balls_scene(pm_scenes *s)
-{
-    pm_scenes_begin(s);
-    pm_scenes_room(s, 1.0, pm_scenes_diffuse(s, pm_rgb(0.7, 0.5, 0.3)));
-    pm_shape mirror = pm_shapes_sphere(pm_vec(-0.4, 0.2, -0.6), 0.4);
-    pm_shape glass = pm_shapes_sphere(pm_vec(0.45, -0.2, -0.55), 0.4);
-    pm_scenes_wear(s, mirror, pm_scenes_mirror(s, pm_gray(0.9)));
-    pm_scenes_wear(s, glass, pm_scenes_glass(s, 1.5));
-    int lamp = pm_scenes_add(s, pm_scenes_square(0.5, 1.0, true), 0, PM_NONE);
-    pm_scenes_lamp(s, lamp, pm_gray(2.0));
-    pm_scenes_point(s, pm_vec(0.1, 0.0, 0.8), pm_rgb(1.0, 2.0, 1.0));
-    pm_scenes_ready(s);
-}
-
-/// A diffuse room of this albedo around a point light of 3 W.
-static void plain_room(pm_scenes *s, double albedo)
-{
-    pm_scenes_begin(s);
-    pm_scenes_room(s, 1.0, pm_scenes_diffuse(s, pm_gray(albedo)));
-    pm_scenes_point(s, pm_vec(0.1, 0.0, 0.2), pm_gray(3.0));
-    pm_scenes_ready(s);
-}
-
 static void run(const pm_scenes *s, pm_map_kind kind, pm_pass_settings settings,
                 pm_photon_map *map, pm_pass_report *report)
 {
@@ -109,7 +85,7 @@ static void presets_stop_with_the_right_photon(void)
 {
     static const uint64_t wanted[6] = {1, 2, 1000, 2500, 10000, 50000};
     pm_scenes s;
-    balls_scene(&s);
+    pm_scenes_balls(&s);
     witness all = witness_make(200000);
     pm_pass_settings settings = {.seed = 1, .count = 30000};
     settings.tap = (pm_trace_sink){&all, witness_deposit, witness_event};
@@ -130,7 +106,7 @@ static void tap_sees_what_is_stored(void)
     // Each photon once, in order, and none beyond the one that fills the number.
     for (uint64_t stored = 0; stored <= 5000; stored += 2500) {
         pm_scenes s;
-        balls_scene(&s);
+        pm_scenes_balls(&s);
         witness w = witness_make(20000);
         pm_pass_settings settings = {.seed = 1, .count = 5000, .stored = stored};
         settings.tap = (pm_trace_sink){&w, witness_deposit, witness_event};
@@ -153,7 +129,7 @@ static void tap_sees_what_is_stored(void)
 static void unreachable_presets_give_up(void)
 {
     pm_scenes s;
-    plain_room(&s, 0.5); // nothing specular: no caustic photon ever
+    pm_scenes_lit_room(&s, 0.5); // nothing specular: no caustic photon ever
     pm_pass_settings settings = {.seed = 1, .count = 5000, .stored = 50};
     pm_photon_map map = {.count = 77};
     pm_pass_report report = {.emitted = 77};
