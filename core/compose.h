@@ -18,13 +18,22 @@ typedef struct {
     uint64_t pixel; // and which of its samples, and which vertex of the sample's paths this is
     uint32_t sample;
     uint32_t vertex;
+    pm_vec3 from; // where the last ray started at a surface or the eye
+    double pdf;   // [1/sr] with which the S lobe there drew this ray; 0 for smooth lobes, the
+                  // eye and D lobes
 } pm_vertex;
 
 /// Whom to ask for radiance [W/(m^2 sr)] leaving a vertex towards lobes.wi. Each writes its
 /// last argument. Those that are NULL do not exist in this picture and count as black.
+///
+/// A lamp that shows in a rough mirror is found in two ways: by `glint`, which draws points on
+/// lamps, and by `emitted`, where the mirrored path meets one. They share it out between them,
+/// by at->pdf, so that both may be added.
 typedef struct {
     void *context;
     pm_status (*emitted)(void *context, const pm_vertex *at, pm_spectrum *radiance);
+    pm_status (*sky)(void *context, const pm_ray *ray, pm_spectrum *radiance); // beyond all
+    pm_status (*glint)(void *context, const pm_vertex *at, pm_spectrum *radiance);
     pm_status (*direct)(void *context, const pm_vertex *at, pm_spectrum *radiance);  // LD
     pm_status (*caustic)(void *context, const pm_vertex *at, pm_spectrum *radiance); // LS+D
     pm_status (*indirect)(void *context, const pm_vertex *at,

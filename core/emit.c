@@ -48,8 +48,10 @@ static int light_out_of_step(const pm_scene *scene, const uint64_t *share, bool 
     return found;
 }
 
-pm_status pm_emit_share(const pm_scene *scene, uint64_t count, uint64_t *share)
+pm_status pm_emit_share(const pm_scene *scene, const pm_projection *projections, uint64_t count,
+                        uint64_t *share)
 {
+    (void)projections;
     double total = 0.0;
     uint64_t powered = 0;
     for (int i = 0; i < scene->light_count; i++) {
@@ -158,6 +160,8 @@ static pm_status emit_by_type(const pm_scene *scene, const pm_light *light,
         return emit_area(&scene->shapes[light->shape], projection, rng, ray);
     case PM_LIGHT_DIRECTIONAL:
         return emit_directional(scene, light, projection, rng, ray);
+    default:
+        break;
     }
     return PM_FAIL(PM_EINPUT, "unknown light type %d", (int)light->type);
 }

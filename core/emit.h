@@ -14,11 +14,11 @@
 /// Where a light's photons are worth sending. The unit square that a light's direction (for a
 /// directional light: its start) is made from is cut into rows x columns cells of equal power;
 /// only the lit ones are used. Cells are conservative: no dark cell reaches anything that
-/// counts.
+/// counts. Zero-initialised: the light sends everywhere.
 typedef struct {
-    uint32_t rows, columns;
-    const uint32_t *lit; // row * columns + column of each lit cell, ascending
-    uint32_t lit_count;  // >= 1
+    uint32_t rows, columns; // 0: everywhere
+    const uint32_t *lit;    // row * columns + column of each lit cell, ascending
+    uint32_t lit_count;     // 0: nothing that counts is in reach, so the light sends nothing
 } pm_projection;
 
 /// What one pass emits.
@@ -27,7 +27,7 @@ typedef struct {
     pm_rng_source source;
     uint64_t count;                   // photons in all, 1..PM_EMIT_MAX
     const uint64_t *share;            // photons per light, from pm_emit_share()
-    const pm_projection *projections; // one a light; NULL or lit_count 0: send everywhere
+    const pm_projection *projections; // one a light; NULL: all send everywhere
 } pm_emission;
 
 /// A photon on its way.
@@ -38,27 +38,31 @@ typedef struct {
     uint32_t light;
 } pm_start;
 
-/// Shares `count` photons among the lights by power (mean of the three channels).
+/// Shares `count` photons among the lights by the power that they send (mean of the three
+/// channels, times the lit share of their projection).
 ///
-/// A light of 0 W gets none, every other light at least one; the shares add up to `count`, or
-/// to 0 when no light has any power.
+/// A light that sends nothing gets none, every other light at least one; the shares add up to
+/// `count`, or to 0 when no light sends any power.
 ///
-/// @param share  [out] scene->light_count numbers
-/// @return PM_EINPUT when `count` is below the number of lights that have power
-pm_status pm_emit_share(const pm_scene *scene, uint64_t count, uint64_t *share);
+/// @param projections  one a light, or NULL
+/// @param share        [out] scene->light_count numbers
+/// @return PM_EINPUT when `count` is below the number of lights that send power
+pm_status pm_emit_share(const pm_scene *scene, const pm_projection *projections, uint64_t count,
+                        uint64_t *share);
 
 /// Two uniform numbers in [0,1)^2 inside a lit cell, every lit cell equally likely; plain
-/// uniform numbers when `projection` is NULL or has no lit cell.
+/// uniform numbers when `projection` is NULL or has no cells.
 ///
 /// @param u  [out]
 pm_status pm_emit_cell(const pm_projection *projection, pm_rng *rng, double u[2]);
 
 /// One photon's ray from `light`, distributed as the light's power is.
 ///
-/// Point: isotropic. Area: uniform over the surface, cosine about its normal, started off the
-/// surface by the offset rule. Directional: uniform over the disc of the scene's bounding
-/// sphere that faces the light, before everything. `projection` (or NULL) picks the cell of the
-/// direction; for a directional light, of the start.
+/// Point: isotropic. Spot: by its intensity. Area: uniform over the surface, cosine about its
+/// normal, started off the surface by the offset rule. Directional: uniform over the disc of
+/// the scene's bounding sphere that faces the light, before everything. Constant: like a
+/// directional light from a direction uniform on the sphere. `projection` (or NULL) picks the
+/// cell of the direction; for a directional light, of the start; for a constant one, nothing.
 ///
 /// @param ray  [out] unit direction, t_max infinite, wavelength 0, medium the light's
 pm_status pm_emit_ray(const pm_scene *scene, const pm_light *light,

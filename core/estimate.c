@@ -59,7 +59,7 @@ bool pm_estimate_accept(const void *context, const pm_photon *photon, double *di
 {
     const pm_estimate_query *query = context;
     pm_vec3 normal = query->point.normal;
-    if ((photon->flags & query->skip) != 0 ||
+    if ((photon->flags & query->skip) != 0 || (photon->flags & query->only) != query->only ||
         !pm_normal_within(photon->flags >> PM_PHOTON_NORMAL_SHIFT, normal, SIDE_SLACK)) {
         return false;
     }
@@ -187,7 +187,8 @@ static pm_status estimate_surface(const pm_photon_map *map,
                                   const void *context, pm_neighbour *scratch, pm_estimate *out)
 {
     PM_TRY(check(map, settings));
-    pm_estimate_query query = {*point, settings->shape, settings->flatness, settings->skip};
+    pm_estimate_query query = {*point, settings->shape, settings->flatness, settings->skip,
+                               settings->only};
     pm_search what = {.at = point->at, .accept = pm_estimate_accept, .context = &query};
     widen_planes(&query, what.widen);
     extent area;
@@ -220,22 +221,11 @@ static pm_spectrum reflected(const void *context, const pm_photon_view *photon)
     return pm_material_evaluate(lobes, from);
 }
 
-/// Whether every D lobe reflects alike whatever the directions.
-static bool lambertian(const pm_lobes *lobes)
-{
-    for (int i = 0; i < lobes->count; i++) {
-        if (!lobes->lobe[i].specular && lobes->lobe[i].type != PM_LOBE_DIFFUSE) {
-            return false;
-        }
-    }
-    return true;
-}
-
 pm_status pm_estimate_radiance(const pm_photon_map *map, const pm_estimate_settings *settings,
                                const pm_estimate_point *point, const pm_lobes *lobes,
                                pm_neighbour *scratch, pm_estimate *out)
 {
-    if (!lambertian(lobes)) {
+    if (!pm_material_is_lambertian(lobes)) {
         return estimate_surface(map, settings, point, reflected, lobes, scratch, out);
     }
     // One factor for all photons, whose directions need not be decoded then.
@@ -273,7 +263,8 @@ pm_status pm_estimate_volume(const pm_photon_map *map, const pm_estimate_setting
     pm_estimate_settings constant = *settings;
     constant.filter = PM_FILTER_NONE; // kernels are made for discs
     scattering to = {medium, wo};
-    pm_estimate_query query = {{.at = at}, PM_GATHER_SPHERE, 1.0, settings->skip};
+    pm_estimate_query query = {
+        {.at = at}, PM_GATHER_SPHERE, 1.0, settings->skip, settings->only};
     pm_search what = {.at = at, .accept = pm_estimate_accept, .context = &query};
     extent ball;
     pm_spectrum sum;

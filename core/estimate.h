@@ -26,6 +26,7 @@ typedef struct {
     pm_filter_constants constants;
     bool plain_k;  // the lecture's form: k photons over pi r_k^2
     uint16_t skip; // photons with one of these flag bits are left out (PM_PHOTON_FIRST ...)
+    uint16_t only; // photons without one of these are left out; 0: none is
 } pm_estimate_settings;
 
 /// k 100, no reach, disc of flatness 0.1, no filter, unbiased.
@@ -54,7 +55,7 @@ typedef struct {
     pm_estimate_point point;
     pm_gather_shape shape;
     double flatness;
-    uint16_t skip; // as in the settings
+    uint16_t skip, only; // as in the settings
 } pm_estimate_query;
 bool pm_estimate_accept(const void *context, const pm_photon *photon, double *distance2);
 

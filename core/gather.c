@@ -4,6 +4,7 @@
 
 #include "direct.h"
 #include "lattice.h"
+#include "light.h"
 
 #include <stddef.h>
 
@@ -31,21 +32,22 @@ static uint32_t per_sample(uint32_t per_pixel, uint32_t spp)
 static pm_status ask_emitted(void *context, const pm_vertex *at, pm_spectrum *radiance)
 {
     const pm_gather *gather = context;
-    const pm_scene *scene = gather->compose->world->scene;
-    int light = scene->shapes[at->hit.shape].light;
-    bool front = pm_vec_dot(at->lobes.wi, at->hit.normal) > 0.0;
-    *radiance = light != PM_NONE && front ? scene->lights[light].emitted : pm_gray(0.0);
+    *radiance = pm_light_emitted(gather->compose->world->scene, &at->hit, at->lobes.wi);
     return PM_OK;
 }
 
 static pm_status ask_direct(void *context, const pm_vertex *at, pm_spectrum *radiance)
 {
-    const pm_gather *gather = context;
-    double shift[2];
-    lattice_shift(gather, at, FOR_LIGHTS, shift);
-    uint32_t samples = per_sample(gather->settings.light_samples, gather->settings.spp);
-    *radiance = pm_direct(gather->compose->world, &at->hit, &at->lobes, samples, at->sample,
-                          gather->settings.spp, shift);
+    pm_gather *gather = context;
+    pm_direct_query query = {
+        .world = gather->compose->world,
+        .samples = per_sample(gather->settings.light_samples, gather->settings.spp),
+        .first = at->sample,
+        .step = gather->settings.spp,
+    };
+    lattice_shift(gather, at, FOR_LIGHTS, query.shift);
+    *radiance = pm_direct(&query, &at->hit, &at->lobes);
+    gather->shadow_rays += query.rays;
     return PM_OK;
 }
 

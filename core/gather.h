@@ -4,6 +4,7 @@
 #define PM_GATHER_H
 
 #include "compose.h"
+#include "direct.h"
 #include "estimate.h"
 
 /// How a picture's light is looked up.
@@ -12,19 +13,25 @@ typedef struct {
     uint32_t rays;          // of the final gather, a pixel; 0: the global map is seen directly
     uint32_t light_samples; // shadow rays to each area light, a pixel
     uint32_t spp;           // eye samples a pixel that these are dealt out to
+    bool caustics_global;   // the caustic-marked photons of the global map feed that layer
 } pm_gather_settings;
 
 typedef struct {
     const pm_compose *compose;              // that asks; set by pm_gather_sources()
     const pm_photon_map *map[PM_MAP_COUNT]; // balanced; NULL: not in this picture
     pm_gather_settings settings;
-    pm_neighbour *scratch; // settings.estimate.k entries
+    const pm_photon_map *irradiance; // at places of the global map (irradiance.h), or NULL
+    const pm_shadow_maps *shadows;   // or NULL
+    pm_neighbour *scratch;           // settings.estimate.k entries, at least PM_SHADOW_K
     // what the estimates in the global map used, summed since the user set them to 0; and what
     // was cut
     double radius_sum;
     uint64_t found_sum;
     uint64_t lookups;
-    uint64_t cut; // gather rays ended after too many S events in a row
+    uint64_t cut;  // gather rays ended after too many S events in a row
+    uint64_t near; // gather rays that went on one bounce, having met a surface nearer than the
+                   // reach of the estimate there
+    uint64_t shadow_rays, shadow_spared; // as in pm_direct_query
 } pm_gather;
 
 /// Points compose->ask at `gather` and the maps that it has.

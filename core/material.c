@@ -96,6 +96,7 @@ void pm_material_lobes(const pm_scene *scene, const pm_hit *hit, pm_vec3 wi, dou
         return;
     }
     const pm_material *material = &scene->materials[index];
+    lobes->material = material;
     switch (material->type) {
     case PM_BSDF_DIFFUSE:
         add_lobe(lobes, PM_LOBE_DIFFUSE, material->reflectance);
@@ -108,6 +109,8 @@ void pm_material_lobes(const pm_scene *scene, const pm_hit *hit, pm_vec3 wi, dou
         break;
     case PM_BSDF_NULL:
         lobes->passes = true;
+        break;
+    default:
         break;
     }
 }
@@ -149,19 +152,25 @@ void pm_material_sample(const pm_lobes *lobes, int which, pm_rng *rng, pm_scatte
         scatter->radiance = square(lobes->eta);
         scatter->medium = lobes->medium_beyond;
         break;
+    default:
+        break;
     }
+}
+
+pm_spectrum pm_material_value(const pm_lobes *lobes, int which, pm_vec3 wo)
+{
+    bool reflects = lobes->lobe[which].type == PM_LOBE_DIFFUSE;
+    bool above = pm_vec_dot(wo, lobes->normal) > 0.0;
+    return reflects && above ? pm_spectrum_scale(lobes->lobe[which].albedo, 1.0 / PM_PI)
+                             : pm_gray(0.0);
 }
 
 pm_spectrum pm_material_evaluate(const pm_lobes *lobes, pm_vec3 wo)
 {
     pm_spectrum value = pm_gray(0.0);
-    if (pm_vec_dot(wo, lobes->normal) <= 0.0) {
-        return value;
-    }
     for (int i = 0; i < lobes->count; i++) {
-        if (lobes->lobe[i].type == PM_LOBE_DIFFUSE) {
-            value =
-                pm_spectrum_add(value, pm_spectrum_scale(lobes->lobe[i].albedo, 1.0 / PM_PI));
+        if (!lobes->lobe[i].specular) {
+            value = pm_spectrum_add(value, pm_material_value(lobes, i, wo));
         }
     }
     return value;
@@ -172,4 +181,33 @@ double pm_material_pdf(const pm_lobes *lobes, int which, pm_vec3 wo)
     double cosine = pm_vec_dot(wo, lobes->normal);
     bool samples = lobes->lobe[which].type == PM_LOBE_DIFFUSE && cosine > 0.0;
     return samples ? cosine / PM_PI : 0.0;
+}
+
+bool pm_material_is_lambertian(const pm_lobes *lobes)
+{
+    for (int i = 0; i < lobes->count; i++) {
+        if (!lobes->lobe[i].specular && lobes->lobe[i].type != PM_LOBE_DIFFUSE) {
+            return false;
+        }
+    }
+    return true;
+}
+
+pm_material_traits pm_material_traits_of(const pm_material *material)
+{
+    pm_material_traits traits = {0};
+    if (material->type == PM_BSDF_DIFFUSE) {
+        traits.diffuse = true;
+        traits.albedo = pm_spectrum_max(material->reflectance);
+        traits.reflecting = traits.albedo > 0.0;
+    }
+    traits.specular = traits.delta =
+        material->type == PM_BSDF_DIELECTRIC || material->type == PM_BSDF_CONDUCTOR;
+    traits.transmits = material->type == PM_BSDF_DIELECTRIC || material->type == PM_BSDF_NULL;
+    return traits;
+}
+
+void pm_material_prepare(pm_material *material)
+{
+    (void)material;
 }

@@ -36,13 +36,18 @@ typedef struct {
     // picture
     uint32_t gather; // directions of a final gather; 0: global map seen directly
     uint32_t spp;
-    bool view_photons;  // --view photons
-    int width, height;  // --size; 0: the scene's
-    int only;           // a pm_layer; -1: all
-    const char *preset; // NULL: none
-    bool explain;       // say the plan and stop
-    bool check_scene;   // render --check: validate the scene and stop
-    double exposure;    // stops, of --png
+    bool view_photons;    // --view photons
+    bool direct_photons;  // --direct photons
+    bool caustics_global; // --caustics global
+    bool precompute;      // --precompute on
+    bool everywhere;      // --projection off
+    uint64_t light_paths; // --light-paths, of the reference; 0: none
+    int width, height;    // --size; 0: the scene's
+    int only;             // a pm_layer; -1: all
+    const char *preset;   // NULL: none
+    bool explain;         // say the plan and stop
+    bool check_scene;     // render --check: validate the scene and stop
+    double exposure;      // stops, of --png
 
     // places
     bool has_at, has_normal;

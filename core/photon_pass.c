@@ -246,7 +246,7 @@ static pm_status prepare(const pm_intersector *world, pm_map_kind kind,
     pm_caps caps = pm_caps_of(world->scene, settings->max_bounces);
     tracing->max_bounces = caps.bounces;
     tracing->max_specular = caps.specular;
-    return pm_emit_share(world->scene, settings->count, share);
+    return pm_emit_share(world->scene, settings->projections, settings->count, share);
 }
 
 static pm_status outcome(const pm_pass *pass)

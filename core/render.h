@@ -6,6 +6,7 @@
 #include "image.h"
 #include "photon_pass.h"
 #include "plan.h"
+#include "projection.h"
 
 /// How a picture is made. From pm_render_defaults(), then changed.
 typedef struct {
@@ -16,8 +17,11 @@ typedef struct {
     uint32_t max_bounces; // 0: the rule of pm_caps_of()
     bool unpacked;
     pm_gather_settings light;
-    int only;          // one pm_layer, or PM_NONE for all
-    bool view_photons; // photons as dots in place of the picture
+    int only;            // one pm_layer, or PM_NONE for all
+    bool view_photons;   // photons as dots in place of the picture
+    bool everywhere;     // no projection maps
+    bool direct_photons; // shadow photons decide where shadow rays are needless
+    bool precompute;     // irradiance at photon positions for the gather (irradiance.h)
 } pm_render_settings;
 
 pm_render_settings pm_render_defaults(void);
@@ -29,14 +33,21 @@ typedef struct {
     pm_photon_map map[PM_MAP_COUNT];
     pm_pass_report pass[PM_MAP_COUNT];    // zeroed where a stored map was given
     double balance_seconds[PM_MAP_COUNT]; // CPU and wall: one thread
+    pm_projections aim[PM_MAP_COUNT];     // how each map's photons were aimed
+    pm_photon_map irradiance;             // with `precompute`; empty otherwise
+    double irradiance_seconds;
+    pm_shadow_maps shadows; // with `direct_photons`
+    double shadow_seconds;
 } pm_render_maps;
 
 /// What the eye pass did.
 typedef struct {
-    double seconds;      // on the wall
-    double cpu;          // [s] of all threads
-    uint64_t lookups;    // in the global map
-    uint64_t cut;        // eye paths and gather rays ended after too many S events in a row
+    double seconds;   // on the wall
+    double cpu;       // [s] of all threads
+    uint64_t lookups; // in the global map
+    uint64_t cut;     // eye paths and gather rays ended after too many S events in a row
+    uint64_t near;    // gather rays that went on one bounce
+    uint64_t shadow_rays, shadow_spared;
     uint64_t too_bright; // pixels beyond the range of a float: infinite in the picture
     bool black;          // no pixel has any light
 } pm_eye_report;

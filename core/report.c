@@ -2,6 +2,7 @@
 #include "report.h"
 
 #include "file.h"
+#include "light.h"
 #include "map_power.h"
 #include "photon_map.h"
 
@@ -73,19 +74,13 @@ json_t *pm_report_plan(const pm_plan *plan)
     return object;
 }
 
-static const char *light_type(pm_light_type type)
-{
-    static const char *const names[] = {"point", "area", "directional"};
-    return names[type];
-}
-
 json_t *pm_report_lights(const pm_scene *scene, const uint64_t *share)
 {
     json_t *array = json_array();
     for (int i = 0; i < scene->light_count; i++) {
         const pm_light *light = &scene->lights[i];
         json_t *entry =
-            json_pack("{s:s,s:s}", "id", light->id, "type", light_type(light->type));
+            json_pack("{s:s,s:s}", "id", light->id, "type", pm_light_name(light->type));
         entry = pm_report_add(entry, "flux", pm_report_spectrum(light->flux));
         if (share != NULL) {
             entry = pm_report_add(entry, "photons", json_integer((json_int_t)share[i]));

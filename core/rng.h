@@ -21,6 +21,8 @@ typedef enum {
     PM_STREAM_CAMERA, // index = pixel * samples per pixel + sample
     PM_STREAM_REFERENCE,
     PM_STREAM_TEST,
+    PM_STREAM_SHADOW,
+    PM_STREAM_LIGHT_PATHS, // of the reference
 } pm_rng_stream;
 
 /// Everything about a run that its random numbers depend on, one index and one bounce apart.

@@ -17,20 +17,39 @@ typedef enum {
     PM_BSDF_DIFFUSE,
     PM_BSDF_DIELECTRIC,
     PM_BSDF_CONDUCTOR,
-    PM_BSDF_NULL, // no event: light passes as if nothing were there
+    PM_BSDF_NULL,            // no event: light passes as if nothing were there
+    PM_BSDF_THIN_DIELECTRIC, // a pane: both its faces at once, transmits straight on
+    PM_BSDF_ROUGH_CONDUCTOR,
+    PM_BSDF_PLASTIC, // diffuse under a smooth dielectric coat
+    PM_BSDF_ROUGH_PLASTIC,
 } pm_bsdf_type;
+
+/// Distribution of microfacet normals.
+typedef enum {
+    PM_MICROFACET_BECKMANN,
+    PM_MICROFACET_GGX,
+} pm_microfacet_kind;
+
+/// Entries of a table over the cosine to the normal, at 0, 1/(n-1), .. 1.
+#define PM_COSINE_TABLE 129
 
 /// One bsdf. Ratios lie in [0, 1], indices are > 0.
 typedef struct {
     pm_bsdf_type type;
     const char *id; // as in the file, or TYPE@LINE
     int line;
-    pm_spectrum reflectance;            // diffuse albedo
+    pm_spectrum reflectance;            // diffuse albedo; of plastics, what lies under the coat
     pm_spectrum specular_reflectance;   // factor on what a smooth lobe reflects
     pm_spectrum specular_transmittance; // factor on what a dielectric transmits
     double int_ior, ext_ior;            // dielectric: inside is opposite to the normal
     bool perfect_mirror;                // conductor with material "none": reflects everything
     pm_spectrum eta, k;                 // conductor otherwise, relative to vacuum
+    pm_microfacet_kind microfacet;      // rough ones
+    double alpha;                       // roughness, > 0; at most 0.1: its lobe counts as S
+    // Of a plastic's coat, filled in by pm_material_prepare():
+    double coat[PM_COSINE_TABLE]; // share of light from outside that gets in, over its cosine
+    double coat_mean;             // its mean over a diffuse field, weighed by the cosine
+    double coat_inside;           // share of diffuse light from within that is thrown back
 } pm_material;
 
 typedef enum {
@@ -74,6 +93,8 @@ typedef enum {
     PM_LIGHT_POINT,
     PM_LIGHT_AREA,        // on a shape, from the side of its normal, Lambertian
     PM_LIGHT_DIRECTIONAL, // parallel, from outside the scene
+    PM_LIGHT_SPOT,        // a cone from a point: full inside the beam, to 0 at the cutoff
+    PM_LIGHT_CONSTANT,    // the same radiance from all around, from outside the scene
 } pm_light_type;
 
 typedef struct {
@@ -82,11 +103,15 @@ typedef struct {
     int line;
     int shape;           // area: index of its shape; else PM_NONE
     int medium;          // that it stands in, or PM_NONE
-    pm_vec3 position;    // point
-    pm_vec3 direction;   // directional: unit, the way the light travels
-    pm_spectrum emitted; // point: intensity [W/sr]; area: radiance [W/(m^2 sr)];
-                         // directional: irradiance [W/m^2] on a plane facing it
-    pm_spectrum flux;    // [W] all in all; directional: through the scene's bounding disc
+    pm_vec3 position;    // point, spot
+    pm_vec3 direction;   // directional, spot: unit, the way the light travels (on the axis)
+    double beam, cutoff; // spot [rad]: half angles, 0 <= beam < cutoff < pi; between them the
+                         // intensity falls to 0 linearly in the angle
+    pm_spectrum emitted; // point, spot: intensity [W/sr] (of the beam); area, constant:
+                         // radiance [W/(m^2 sr)]; directional: irradiance [W/m^2] on a plane
+                         // facing it
+    pm_spectrum flux;    // [W] all in all; directional: through the scene's bounding disc;
+                         // constant: into its bounding sphere
 } pm_light;
 
 /// A pinhole camera. Pixel (0, 0) is the top left one; a film point (u, v) in [0,1]^2, v down,
@@ -116,11 +141,12 @@ typedef struct pm_scene {
     int material_count, shape_count, light_count, medium_count;
     bool has_camera;
     pm_camera camera;
-    pm_vec3 center;    // of all shapes; added to a centred point gives the file's coordinates
-    pm_vec3 low, high; // bounds of all shapes and point lights, centred; the camera is left out
-    double radius;     // of the bounding sphere about the centred origin, > 0
-    uint64_t hash;     // of everything above that light depends on
-    char **notes;      // lines about what was accepted but is not used
+    pm_vec3 center; // of all shapes; added to a centred point gives the file's coordinates
+    pm_vec3 low,
+        high;      // bounds of all shapes, points and spots, centred; the camera is left out
+    double radius; // of the bounding sphere about the centred origin, > 0
+    uint64_t hash; // of everything above that light depends on
+    char **notes;  // lines about what was accepted but is not used
     int note_count;
     void *storage; // where every pointer above lives; scene_read owns the kind
 } pm_scene;

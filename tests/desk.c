@@ -52,7 +52,12 @@ void pm_desk_ready(pm_desk *desk)
         .source = {.seed = 5, .stream = PM_STREAM_CAMERA},
         .max_specular = 1000,
         .splits = 2,
-        .ask = {desk, say_emitted, say_direct, say_caustic, say_indirect, say_global},
+        .ask = {.context = desk,
+                .emitted = say_emitted,
+                .direct = say_direct,
+                .caustic = say_caustic,
+                .indirect = say_indirect,
+                .global = say_global},
     };
     for (int layer = 0; layer < PM_LAYER_COUNT; layer++) {
         desk->compose.wanted[layer] = true;

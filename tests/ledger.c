@@ -94,7 +94,7 @@ pm_tracing pm_ledger_open(const pm_scenes *s, pm_ledger *l)
 void pm_ledger_trace(const pm_scenes *s, const pm_tracing *tracing, uint32_t count)
 {
     uint64_t share[PM_SCENES_LIGHTS];
-    CHECK_OK(pm_emit_share(&s->scene, count, share));
+    CHECK_OK(pm_emit_share(&s->scene, NULL, count, share));
     pm_emission emission = {&s->scene, tracing->source, count, share, NULL};
     pm_start *starts = calloc(count, sizeof *starts);
     CHECK(starts != NULL);

@@ -6,6 +6,8 @@
 #include "shapes.h"
 #include "test.h"
 
+#include <string.h>
+
 static const pm_rng_source source = {.seed = 8, .stream = PM_STREAM_TEST};
 
 /// Where a ray from `above` downward meets the scene, and what it meets.
@@ -23,7 +25,9 @@ static pm_spectrum irradiance(const pm_scenes *s, pm_vec3 above, uint32_t sample
     pm_hit hit;
     pm_lobes lobes;
     look_down(s, above, &hit, &lobes);
-    pm_spectrum radiance = pm_direct(&s->world, &hit, &lobes, samples, 0, 1, shift);
+    pm_direct_query query = {.world = &s->world, .samples = samples, .step = 1};
+    memcpy(query.shift, shift, sizeof query.shift);
+    pm_spectrum radiance = pm_direct(&query, &hit, &lobes);
     return pm_spectrum_scale(radiance, PM_PI / 0.5);
 }
 
@@ -115,7 +119,6 @@ static void lamp_of_the_cornell_box(void)
 static void lattice_parts_make_one(void)
 {
     // Four calls of 25 samples are one of 100.
-    const double shift[2] = {0.3, 0.7};
     pm_scenes s;
     begin_floor(&s);
     add_lamp(&s, 1.0, 1.0);
@@ -123,10 +126,15 @@ static void lattice_parts_make_one(void)
     pm_hit hit;
     pm_lobes lobes;
     look_down(&s, pm_vec(0.3, 0.1, 0.5), &hit, &lobes);
-    double whole = pm_direct(&s.world, &hit, &lobes, 100, 0, 1, shift).c[0];
+    pm_direct_query all = {.world = &s.world, .samples = 100, .step = 1, .shift = {0.3, 0.7}};
+    double whole = pm_direct(&all, &hit, &lobes).c[0];
     double parts = 0.0;
     for (uint32_t first = 0; first < 4; first++) {
-        parts += pm_direct(&s.world, &hit, &lobes, 25, first, 4, shift).c[0] / 4.0;
+        pm_direct_query part = all;
+        part.samples = 25;
+        part.first = first;
+        part.step = 4;
+        parts += pm_direct(&part, &hit, &lobes).c[0] / 4.0;
     }
     CHECK(whole > 0.1);
     CHECK_NEAR(parts, whole, 1e-13 * whole);

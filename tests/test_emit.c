@@ -64,7 +64,7 @@ static void shares_add_up(void)
         lights_of(&s, sets[i].powers, sets[i].count, i % 2 == 1);
         uint64_t share[LIGHTS];
         for (uint64_t n = sets[i].powered; n <= MANY; n++) {
-            CHECK_OK(pm_emit_share(&s.scene, n, share));
+            CHECK_OK(pm_emit_share(&s.scene, NULL, n, share));
             check_shares(&sets[i], share, n);
         }
         pm_scenes_free(&s);
@@ -79,7 +79,7 @@ static void shares_follow_power(void)
     lights_of(&s, powers, 4, true);
     for (uint64_t n = 17; n <= MANY; n++) {
         uint64_t share[4];
-        CHECK_OK(pm_emit_share(&s.scene, n, share));
+        CHECK_OK(pm_emit_share(&s.scene, NULL, n, share));
         for (int i = 0; i < 4; i++) {
             CHECK_NEAR((double)share[i], (double)n * powers[i] / 16.75, 1.0);
         }
@@ -93,7 +93,7 @@ static void weak_light_takes_from_strong(void)
     pm_scenes s;
     lights_of(&s, powers, 3, false);
     uint64_t share[3];
-    CHECK_OK(pm_emit_share(&s.scene, 100, share));
+    CHECK_OK(pm_emit_share(&s.scene, NULL, 100, share));
     CHECK(share[0] == 1 && share[1] == 98 && share[2] == 1);
     pm_scenes_free(&s);
 }
@@ -104,7 +104,7 @@ static void darkness_sends_nothing(void)
     uint64_t share[2] = {77, 77};
     pm_scenes s;
     lights_of(&s, dark, 2, false);
-    CHECK_OK(pm_emit_share(&s.scene, 100, share));
+    CHECK_OK(pm_emit_share(&s.scene, NULL, 100, share));
     CHECK(share[0] == 0 && share[1] == 0);
     pm_scenes_free(&s);
 }
@@ -115,12 +115,12 @@ static void sharing_refuses(void)
     uint64_t share[4] = {77, 77, 77, 77};
     pm_scenes s;
     lights_of(&s, three, 4, false);
-    CHECK_FAILS(pm_emit_share(&s.scene, 0, share), PM_EINPUT, "got 0");
-    CHECK_FAILS(pm_emit_share(&s.scene, 2, share), PM_EINPUT, "between 3");
-    CHECK_FAILS(pm_emit_share(&s.scene, PM_EMIT_MAX + 1ull, share), PM_EINPUT,
+    CHECK_FAILS(pm_emit_share(&s.scene, NULL, 0, share), PM_EINPUT, "got 0");
+    CHECK_FAILS(pm_emit_share(&s.scene, NULL, 2, share), PM_EINPUT, "between 3");
+    CHECK_FAILS(pm_emit_share(&s.scene, NULL, PM_EMIT_MAX + 1ull, share), PM_EINPUT,
                 "got 4294967296");
     CHECK(share[0] == 77 && share[3] == 77);
-    CHECK_OK(pm_emit_share(&s.scene, PM_EMIT_MAX, share));
+    CHECK_OK(pm_emit_share(&s.scene, NULL, PM_EMIT_MAX, share));
     CHECK(share[0] + share[2] + share[3] == PM_EMIT_MAX && share[1] == 0);
     pm_scenes_free(&s);
 }
@@ -129,7 +129,7 @@ static void sharing_refuses(void)
 static pm_start *emit_all(const pm_scenes *s, uint32_t count, const pm_projection *projections)
 {
     uint64_t share[LIGHTS];
-    CHECK_OK(pm_emit_share(&s->scene, count, share));
+    CHECK_OK(pm_emit_share(&s->scene, NULL, count, share));
     pm_emission emission = {&s->scene, source, count, share, projections};
     pm_start *starts = calloc(count, sizeof *starts);
     CHECK(starts != NULL);
@@ -178,7 +178,7 @@ static void lights_take_turns(void)
         pm_scenes s;
         lights_of(&s, sets[i].powers, sets[i].count, false);
         uint64_t share[LIGHTS];
-        CHECK_OK(pm_emit_share(&s.scene, MANY, share));
+        CHECK_OK(pm_emit_share(&s.scene, NULL, MANY, share));
         pm_start *starts = emit_all(&s, MANY, NULL);
         double sent[LIGHTS] = {0};
         for (uint32_t p = 0; p < MANY; p++) {
@@ -200,7 +200,7 @@ static void many_lights_take_turns(void)
         pm_scenes s;
         lights_of(&s, sets[i].powers, sets[i].count, false);
         uint64_t share[LIGHTS];
-        CHECK_OK(pm_emit_share(&s.scene, MANY, share));
+        CHECK_OK(pm_emit_share(&s.scene, NULL, MANY, share));
         pm_start *starts = emit_all(&s, MANY, NULL);
         double sent[LIGHTS] = {0};
         for (uint32_t p = 0; p < MANY; p++) {
@@ -234,7 +234,7 @@ static void chunks_do_not_matter(void)
     lights_of(&s, powers, 3, true);
     pm_start *whole = emit_all(&s, MANY, NULL);
     uint64_t share[3];
-    CHECK_OK(pm_emit_share(&s.scene, MANY, share));
+    CHECK_OK(pm_emit_share(&s.scene, NULL, MANY, share));
     pm_emission emission = {&s.scene, source, MANY, share, NULL};
     for (int i = 0; i < 3; i++) {
         for (uint32_t first = 0; first < MANY; first += sizes[i]) {

@@ -103,7 +103,7 @@ static void turned_walls_keep_their_corner(void)
         double phi = 2.0 * PM_PI * pm_rng_draw(&rng);
         double across = sqrt(1.0 - z * z);
         pm_frame frame = pm_frame_around(pm_vec(across * cos(phi), across * sin(phi), z));
-        pm_estimate_query query = {{{0.0, 0.0, 0.0}, frame.s}, PM_GATHER_SPHERE, 0.1, 0};
+        pm_estimate_query query = {{{0.0, 0.0, 0.0}, frame.s}, PM_GATHER_SPHERE, 0.1, 0, 0};
         pm_photon photon = {
             .flags = (uint16_t)(pm_normal_encode(frame.n) << PM_PHOTON_NORMAL_SHIFT)};
         double distance2;
@@ -116,7 +116,7 @@ static void turned_walls_keep_their_corner(void)
 static void disc_measures_heights_by_flatness(void)
 {
     pm_photon photon = {.position = {3.0f, 0.0f, 4.0f}, .flags = 4095u << 4};
-    pm_estimate_query query = {pm_fields_floor, PM_GATHER_DISC, 0.25, 0};
+    pm_estimate_query query = {pm_fields_floor, PM_GATHER_DISC, 0.25, 0, 0};
     double distance2;
     CHECK(pm_estimate_accept(&query, &photon, &distance2));
     CHECK_NEAR(distance2, 9.0 + 16.0 * 16.0, 1e-12);

@@ -37,11 +37,16 @@ look look_of(const pm_scene *scene, const pm_shape *shape)
     const double *rho = material->reflectance.c;
     switch (material->type) {
     case PM_BSDF_DIFFUSE:
+    case PM_BSDF_PLASTIC:
+    case PM_BSDF_ROUGH_PLASTIC:
         return {plain, pm_colour_linear(rho[0], rho[1], rho[2]), nullptr};
     case PM_BSDF_DIELECTRIC:
+    case PM_BSDF_THIN_DIELECTRIC:
         return {pm_colour_named(PM_COLOUR_SKY), pm_colour_named(PM_COLOUR_SKY), "glass"};
     case PM_BSDF_CONDUCTOR:
         return {pm_colour_named(PM_COLOUR_WHITE), plain, "mirror"};
+    case PM_BSDF_ROUGH_CONDUCTOR:
+        return {pm_colour_named(PM_COLOUR_WHITE), plain, "metal"};
     case PM_BSDF_NULL:
         break;
     }
@@ -219,7 +224,8 @@ pm_status pm_draw_scene(pm_figure *figure, const pm_scene *scene)
             }
         }
         for (int i = 0; i < scene->light_count; i++) {
-            if (scene->lights[i].type == PM_LIGHT_POINT) {
+            pm_light_type type = scene->lights[i].type;
+            if (type == PM_LIGHT_POINT || type == PM_LIGHT_SPOT) {
                 PM_TRY(pm_figure_mark(figure, scene->lights[i].position, "light"));
             }
         }

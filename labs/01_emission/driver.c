@@ -105,7 +105,7 @@ static pm_status run(pm_job *job)
     if (job->share == NULL) {
         return PM_FAIL(PM_ENOMEM, "no memory for the lights");
     }
-    PM_TRY(pm_emit_share(&job->world.scene, job->count, job->share));
+    PM_TRY(pm_emit_share(&job->world.scene, NULL, job->count, job->share));
     if (options->dump != NULL) {
         PM_TRY(pm_file_begin(options->dump, &job->dump));
         fputs("ox,oy,oz,dx,dy,dz,r,g,b,light\n", job->dump.stream);

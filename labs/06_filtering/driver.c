@@ -85,7 +85,8 @@ static pm_status keep(pm_job *job, const pm_photon_map *map, const pm_estimate_p
                       uint32_t *kept)
 {
     const pm_estimate_settings *settings = &job->options->estimate;
-    pm_estimate_query query = {*point, settings->shape, settings->flatness, settings->skip};
+    pm_estimate_query query = {*point, settings->shape, settings->flatness, settings->skip,
+                               settings->only};
     pm_search search = {.at = point->at,
                         .k = settings->k,
                         .radius2 = settings->radius * settings->radius,
