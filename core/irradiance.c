@@ -1,9 +1,11 @@
 // No place knows its irradiance yet.
 #include "irradiance.h"
 
-pm_status pm_irradiance_make(const pm_photon_map *global, const pm_estimate_settings *settings,
-                             uint32_t spacing, pm_photon_map *places)
+pm_status pm_irradiance_make(const pm_intersector *world, const pm_photon_map *global,
+                             const pm_estimate_settings *settings, uint32_t spacing,
+                             pm_photon_map *places)
 {
+    (void)world;
     (void)global;
     (void)settings;
     (void)spacing;
@@ -11,13 +13,19 @@ pm_status pm_irradiance_make(const pm_photon_map *global, const pm_estimate_sett
     return PM_OK;
 }
 
-bool pm_irradiance_find(const pm_photon_map *places, const pm_estimate_point *point,
-                        double reach, pm_spectrum *irradiance, double *distance)
+double pm_irradiance_reach(const pm_photon_map *places)
 {
     (void)places;
-    (void)point;
+    return 0.0;
+}
+
+bool pm_irradiance_find(const pm_photon_map *places, const pm_estimate_settings *settings,
+                        double reach, const pm_estimate_point *point, pm_estimate *found)
+{
+    (void)places;
+    (void)settings;
     (void)reach;
-    (void)irradiance;
-    (void)distance;
+    (void)point;
+    (void)found;
     return false;
 }

@@ -5,24 +5,37 @@
 #define PM_IRRADIANCE_H
 
 #include "estimate.h"
+#include "intersect.h"
 
 #define PM_IRRADIANCE_SPACING 4 // photons of the map for one place
 
-/// Irradiance at every `spacing`-th photon of `global`, on the side that photon came from.
+/// Irradiance at every `spacing`-th photon of `global`, on the side that photon came from. The
+/// photon itself is left out of its own estimate: near it photons are known to be, which says
+/// nothing about how many fall there.
 ///
+/// @param world     that the photons were traced in; asked for the exact normals
+/// @param global    balanced and scaled
 /// @param settings  of the estimates
-/// @param places    [out] a balanced map whose exact power is an irradiance [W/m^2]; freed by
-///                  pm_photon_map_free()
+/// @param spacing   >= 1
+/// @param places    [out] a balanced map with exact values: power is the irradiance [W/m^2],
+///                  direction[0] the radius [m] of the estimate, direction[1] the photons found
+///                  by it; untouched unless PM_OK; freed by pm_photon_map_free()
 /// @return PM_EINPUT as pm_estimate_irradiance(); PM_ENOMEM; PM_ESTOPPED on SIGINT
-pm_status pm_irradiance_make(const pm_photon_map *global, const pm_estimate_settings *settings,
-                             uint32_t spacing, pm_photon_map *places);
+pm_status pm_irradiance_make(const pm_intersector *world, const pm_photon_map *global,
+                             const pm_estimate_settings *settings, uint32_t spacing,
+                             pm_photon_map *places);
 
-/// Irradiance of the nearest place on a surface that faces alike, in the disc that estimates
-/// use.
+/// The largest radius of any place's estimate [m]; 0 without places.
+double pm_irradiance_reach(const pm_photon_map *places);
+
+/// The irradiance of the nearest place on a surface that faces alike, among those whose own
+/// disc covers the point.
 ///
-/// @param reach  [m] places farther off do not count
+/// @param settings  of the estimates: shape and flatness of their discs
+/// @param reach     [m] from pm_irradiance_reach()
+/// @param found     [out] that place's estimate
 /// @return false, and nothing written, when there is none
-bool pm_irradiance_find(const pm_photon_map *places, const pm_estimate_point *point,
-                        double reach, pm_spectrum *irradiance, double *distance);
+bool pm_irradiance_find(const pm_photon_map *places, const pm_estimate_settings *settings,
+                        double reach, const pm_estimate_point *point, pm_estimate *found);
 
 #endif
