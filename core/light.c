@@ -14,6 +14,26 @@ double pm_light_falloff(const pm_light *light, double cosine)
     return (light->cutoff - acos(cosine)) / (light->cutoff - light->beam);
 }
 
+/// 1 - sin(x) / x, without the cancellation near 0.
+static double one_minus_sinc(double x)
+{
+    if (x > 0.1) {
+        return 1.0 - sin(x) / x;
+    }
+    double x2 = x * x;
+    return x2 / 6.0 * (1.0 - x2 / 20.0 * (1.0 - x2 / 42.0 * (1.0 - x2 / 72.0)));
+}
+
+double pm_light_cone(const pm_light *light)
+{
+    // 2 pi [1 - (sin c - sin b) / (c - b)] for beam b and cutoff c, in terms of their mean and
+    // half their difference, so that a narrow cone loses no digits and c = b is no exception.
+    double middle = 0.5 * (light->cutoff + light->beam);
+    double half = 0.5 * (light->cutoff - light->beam);
+    double sine = sin(0.5 * middle);
+    return 2.0 * PM_PI * (2.0 * sine * sine + cos(middle) * one_minus_sinc(half));
+}
+
 /// Points and spots.
 static bool sample_point(const pm_light *light, pm_vec3 from, pm_light_sample *sample)
 {

@@ -38,6 +38,10 @@ pm_spectrum pm_light_sky(const pm_scene *scene);
 /// Share of a spot's intensity at a cosine to its axis: 1 in the beam, 0 from the cutoff on.
 double pm_light_falloff(const pm_light *light, double cosine);
 
+/// A spot's flux over the intensity of its beam [sr]: the integral of that share over all
+/// directions.
+double pm_light_cone(const pm_light *light);
+
 /// Its name in a scene file: "point" ...
 const char *pm_light_name(pm_light_type type);
 

@@ -3,6 +3,8 @@
 // before.
 #include "scene_center.h"
 
+#include "light.h"
+
 #include <math.h>
 
 typedef struct {
@@ -75,10 +77,16 @@ static void move(pm_shape *shape, pm_vec3 by)
     shape->reach = fmax(pm_vec_reach(b.low), pm_vec_reach(b.high));
 }
 
+/// Points and spots, which stand somewhere without being a shape.
+static bool has_place(const pm_light *light)
+{
+    return light->type == PM_LIGHT_POINT || light->type == PM_LIGHT_SPOT;
+}
+
 static void cover_point_lights(const pm_scene *scene, const pm_vec3 *origin, bounds *all)
 {
     for (int i = 0; i < scene->light_count; i++) {
-        if (scene->lights[i].type == PM_LIGHT_POINT) {
+        if (has_place(&scene->lights[i])) {
             pm_vec3 by = origin != NULL ? origin[i] : pm_vec(0.0, 0.0, 0.0);
             cover(all, pm_vec_add(scene->lights[i].position, by));
         }
@@ -122,14 +130,20 @@ static void measure(pm_scene *scene)
 
 static pm_spectrum flux_of(const pm_scene *scene, const pm_light *light)
 {
+    double disc = PM_PI * scene->radius * scene->radius;
     switch (light->type) {
     case PM_LIGHT_POINT:
         return pm_spectrum_scale(light->emitted, 4.0 * PM_PI);
+    case PM_LIGHT_SPOT:
+        return pm_spectrum_scale(light->emitted, pm_light_cone(light));
     case PM_LIGHT_AREA:
         return pm_spectrum_scale(light->emitted, PM_PI * scene->shapes[light->shape].area);
-    default:
-        return pm_spectrum_scale(light->emitted, PM_PI * scene->radius * scene->radius);
+    case PM_LIGHT_DIRECTIONAL:
+        return pm_spectrum_scale(light->emitted, disc);
+    case PM_LIGHT_CONSTANT: // pi L through each of the 4 pi R^2 of the sphere
+        return pm_spectrum_scale(light->emitted, 4.0 * PM_PI * disc);
     }
+    return pm_gray(0.0);
 }
 
 static void find_flux(pm_scene_file *source)
@@ -154,7 +168,7 @@ void pm_scene_center(pm_scene_file *source)
     }
     for (int i = 0; i < scene->light_count; i++) {
         pm_light *light = &scene->lights[i];
-        if (light->type == PM_LIGHT_POINT) {
+        if (has_place(light)) {
             pm_vec3 by = pm_vec_sub(source->light_origin[i], scene->center);
             light->position = pm_vec_add(light->position, by);
         }

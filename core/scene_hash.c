@@ -74,6 +74,7 @@ static uint64_t add_light(uint64_t hash, const pm_light *light)
 {
     hash = add_integer(add_integer(hash, (uint64_t)light->type), (uint64_t)light->shape);
     hash = add_vector(add_vector(hash, light->position), light->direction);
+    hash = add_number(add_number(hash, light->beam), light->cutoff);
     return add_spectrum(hash, light->emitted);
 }
 

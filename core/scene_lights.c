@@ -2,7 +2,11 @@
 #include "scene_build.h"
 #include "scene_value.h"
 
+#include <math.h>
 #include <string.h>
+
+/// Lengths and angles of a spot's to_world may differ by rounding of what the file says.
+#define ALIKE 1e-6
 
 static bool is_type(const pm_xml *object, const char *type)
 {
@@ -44,6 +48,72 @@ static void read_directional(pm_scene_file *source, const pm_xml *emitter, pm_li
     light->type = PM_LIGHT_DIRECTIONAL;
     light->direction = pm_vec_normalize(pm_vec_scale(way, 1.0 / reach));
     light->emitted = pm_scene_value_emission(source, emitter, "irradiance");
+}
+
+/// Mitsuba measures the angle to the axis before to_world, so one that scales unevenly would
+/// give an oval cone.
+static bool keeps_round(const pm_transform *to_world)
+{
+    const pm_vec3 *column = to_world->column;
+    for (int i = 0; i < 3; i++) {
+        double length = pm_vec_length(column[i]);
+        double next = pm_vec_length(column[(i + 1) % 3]);
+        double across = pm_vec_dot(column[i], column[(i + 1) % 3]);
+        if (fabs(length - next) > ALIKE * length || fabs(across) > ALIKE * length * next) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// The two angles, in degrees as Mitsuba has them. Where Mitsuba would take a beam wider than
+/// its cutoff, or less than nothing, as something else in silence, it is a fault here.
+static void read_cone(pm_scene_file *source, const pm_xml *emitter, pm_light *light)
+{
+    double cutoff = pm_scene_value_number(source, emitter, "cutoff_angle", 20.0);
+    if (!(cutoff > 0.0 && cutoff < 180.0)) {
+        PM_FAULT(source, pm_scene_value_find(emitter, "cutoff_angle"),
+                 "spot cutoff_angle must lie between 0 and 180 degrees, got %g", cutoff);
+        cutoff = 20.0;
+    }
+    double beam = pm_scene_value_number(source, emitter, "beam_width", 0.75 * cutoff);
+    if (!(beam >= 0.0 && beam <= cutoff)) {
+        PM_FAULT(source, pm_scene_value_find(emitter, "beam_width"),
+                 "spot beam_width must lie in [0, %g], its cutoff_angle, got %g", cutoff, beam);
+        beam = cutoff;
+    }
+    light->cutoff = cutoff * (PM_PI / 180.0);
+    light->beam = beam * (PM_PI / 180.0);
+}
+
+static void read_spot(pm_scene_file *source, const pm_xml *emitter, pm_light *light,
+                      pm_vec3 *origin)
+{
+    pm_transform to_world = pm_scene_value_transform(source, emitter, "to_world");
+    pm_vec3 way = to_world.column[2];
+    if (!keeps_round(&to_world)) {
+        PM_FAULT(source, emitter,
+                 "to_world must keep a spot's cone round: scale x, y and z alike");
+    }
+    light->type = PM_LIGHT_SPOT;
+    light->direction = pm_vec_normalize(pm_vec_scale(way, 1.0 / pm_vec_reach(way)));
+    *origin = to_world.origin;
+    light->emitted = pm_scene_value_emission(source, emitter, "intensity");
+    read_cone(source, emitter, light);
+}
+
+static void read_constant(pm_scene_file *source, const pm_xml *emitter, int index)
+{
+    pm_light *lights = source->scene.lights;
+    for (int i = 0; i < index; i++) {
+        if (lights[i].type == PM_LIGHT_CONSTANT) {
+            PM_FAULT(source, emitter,
+                     "a scene takes at most one constant emitter; there is one at line %d",
+                     lights[i].line);
+        }
+    }
+    lights[index].type = PM_LIGHT_CONSTANT;
+    lights[index].emitted = pm_scene_value_emission(source, emitter, "radiance");
 }
 
 /// Areas of the triangles 0..i, so that a point can be picked uniformly.
@@ -97,6 +167,10 @@ static void read_emitter(pm_scene_file *source, const pm_xml *emitter, int index
         read_point(source, emitter, light, &source->light_origin[index]);
     } else if (is_type(emitter, "directional")) {
         read_directional(source, emitter, light);
+    } else if (is_type(emitter, "spot")) {
+        read_spot(source, emitter, light, &source->light_origin[index]);
+    } else if (is_type(emitter, "constant")) {
+        read_constant(source, emitter, index);
     }
 }
 

@@ -124,8 +124,14 @@ static const pm_word_plugin plugins[] = {
      {{"direction", PM_WORD_TRIPLE, false}, COLOUR("irradiance"), TO_WORLD},
      false},
     {"emitter", "area", {COLOUR("radiance")}, false},
-    {"emitter", "spot", LATER},
-    {"emitter", "constant", LATER},
+    {"emitter",
+     "spot",
+     {COLOUR("intensity"),
+      {"cutoff_angle", PM_WORD_NUMBER, false},
+      {"beam_width", PM_WORD_NUMBER, false},
+      TO_WORLD},
+     false},
+    {"emitter", "constant", {COLOUR("radiance")}, false},
 };
 
 const pm_word_element *pm_scene_words_element(const char *tag)

@@ -9,7 +9,8 @@ static const char text[] =
     "<scene version='3.0.0'>"
     "<default name='move' value='0 0 0'/><default name='grow' value='1'/>"
     "<default name='albedo' value='0.5'/><default name='id' value='a'/>"
-    "<default name='fov' value='40'/><default name='lamp' value='4.4'/><default name='spare' "
+    "<default name='fov' value='40'/><default name='lamp' value='4.4'/><default name='beam' "
+    "value='11'/><default name='spare' "
     "value='0.1'/>"
     "<sensor type='perspective'><float name='fov' value='$fov'/>"
     "<transform name='to_world'><translate value='$move'/></transform></sensor>"
@@ -28,7 +29,8 @@ static const char text[] =
     "<point name='p1' value='1.1 0.4 2.3'/><float name='radius' value='0.21'/>"
     "<transform name='to_world'>" PLACE "</shape>"
     "<emitter type='point'><transform name='to_world'><translate z='$lamp'/>" PLACE
-    "</emitter></scene>";
+    "</emitter><emitter type='spot'><float name='beam_width' value='$beam'/>"
+    "<transform name='to_world'><translate x='0.5' z='1'/>" PLACE "</emitter></scene>";
 
 /// The scene with one of its defaults changed.
 static pm_scene read_with(const char *name, const char *value)
@@ -36,7 +38,7 @@ static pm_scene read_with(const char *name, const char *value)
     pm_scene scene = {0};
     pm_define define = {name, value};
     CHECK_OK(pm_scene_read(pm_scene_text_write("one.xml", text), &define, 1, true, &scene));
-    CHECK(scene.shape_count == 5 && scene.light_count == 2);
+    CHECK(scene.shape_count == 5 && scene.light_count == 3);
     return scene;
 }
 
@@ -71,6 +73,7 @@ static void check_scenes(const pm_scene *got, const pm_scene *want, double facto
         check_shape(&got->shapes[i], &want->shapes[i], factor, tolerance);
     }
     check_vectors(got->lights[1].position, want->lights[1].position, factor, tolerance);
+    check_vectors(got->lights[2].position, want->lights[2].position, factor, tolerance);
     check_vectors(got->low, want->low, factor, tolerance);
     check_vectors(got->high, want->high, factor, tolerance);
     CHECK_NEAR(got->radius, factor * want->radius, tolerance);
@@ -162,6 +165,7 @@ static void hash(void)
     check_hash("spare", "0.2", true);
     check_hash("grow", "1.0000000000000003", false);
     check_hash("move", "1 0 0", false);
+    check_hash("beam", "11.000000000000002", false);
     check_hash("albedo", "0.50000000000000012", false);
 }
 

@@ -197,6 +197,40 @@ static void lights(void)
     pm_scene_free(&s);
 }
 
+static void spots_and_skies(void)
+{
+    pm_scene s = {0};
+    CHECK_OK(pm_scene_text_read(
+        &s, "<emitter type='spot' id='s'><rgb name='intensity' value='1 2 3'/>"
+            "<transform name='to_world'><scale value='3'/><lookat origin='1 2 3' target='1 2 1'"
+            " up='0 1 0'/></transform></emitter>"
+            "<emitter type='spot'><float name='cutoff_angle' value='30'/>"
+            "<float name='beam_width' value='30'/></emitter>"
+            "<emitter type='spot'><float name='cutoff_angle' value='120'/>"
+            "<float name='beam_width' value='0'/></emitter>"
+            "<emitter type='constant'><rgb name='radiance' value='1 0 2'/></emitter>"
+            "<shape type='sphere'/>"));
+    const pm_light *l = s.lights;
+    CHECK(s.light_count == 5 && l[0].type == PM_LIGHT_SPOT && l[0].shape == PM_NONE);
+    check_vector(pm_vec_add(l[0].position, s.center), 1.0, 2.0, 3.0);
+    check_vector(l[0].direction, 0.0, 0.0, -1.0);
+    CHECK_NEAR(l[0].cutoff, 20.0 * PM_PI / 180.0, 1e-15);
+    CHECK_NEAR(l[0].beam, 15.0 * PM_PI / 180.0, 1e-15);
+    check_spectrum(l[0].emitted, 1.0, 2.0, 3.0);
+    double degree = PM_PI / 180.0;
+    double sines = (sin(20.0 * degree) - sin(15.0 * degree)) / (5.0 * degree);
+    CHECK_NEAR(l[0].flux.c[1], 4.0 * PM_PI * (1.0 - sines), 1e-13);
+    // A beam as wide as the cone, and one of no width, whose cone is wider than a half space.
+    CHECK_NEAR(l[1].flux.c[0], 2.0 * PM_PI * (1.0 - cos(30.0 * degree)), 1e-14);
+    double wide = 1.0 - sin(120.0 * degree) / (120.0 * degree);
+    CHECK_NEAR(l[2].flux.c[0], 2.0 * PM_PI * wide, 1e-14);
+    CHECK(l[3].type == PM_LIGHT_CONSTANT && l[3].shape == PM_NONE);
+    CHECK_NEAR(s.radius, pm_vec_length(pm_vec(1.0, 2.0, 3.0)), 1e-14); // spots count
+    double sky = 4.0 * PM_PI * PM_PI * s.radius * s.radius;
+    check_spectrum(l[3].flux, sky, 0.0, 2.0 * sky);
+    pm_scene_free(&s);
+}
+
 static void equal_energy(void)
 {
     pm_scene s = {0};
@@ -257,4 +291,6 @@ PM_TESTS(
     {"scene_read.8", "a one-value spectrum is neutral for albedos, equal-energy for lights",
      equal_energy},
     {"scene_read.9", "what has no id is called TYPE@LINE", names},
-    {"scene_read.10", "our own scenes are read and give the power they promise", own_scenes})
+    {"scene_read.10", "our own scenes are read and give the power they promise", own_scenes},
+    {"scene_read.11", "spots and the constant light have Mitsuba's defaults and their powers",
+     spots_and_skies})

@@ -87,7 +87,7 @@ static void later(void)
     CHECK(!pm_scene_words_plugin("bsdf", "diffuse")->later);
     CHECK(pm_scene_words_plugin("shape", "diffuse") == NULL);
     // What is not read yet is never proposed.
-    CHECK_CONTAINS(pm_scene_words_nearest_plugin("emitter", "sport"), "point");
+    CHECK_CONTAINS(pm_scene_words_nearest_plugin("emitter", "sport"), "spot");
     CHECK_CONTAINS(pm_scene_words_nearest_plugin("bsdf", "roughconductor"), "conductor");
 }
 
