@@ -2,17 +2,39 @@
 // count.
 #include "plan.h"
 
+#include "map_make.h"
+#include "material.h"
+
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 /// What the scene has, by the first example of each.
 typedef struct {
     const char *diffuse;    // shape that scatters diffusely, a black one too
-    const char *reflecting; // diffuse shape of an albedo above 0
-    const char *specular;   // shape with a mirror or glass on it
+    const char *reflecting; // shape of which some diffuse light comes back
+    const char *specular;   // shape with an S lobe
+    const char *surface;    // what that S lobe belongs to
     const char *light;      // light with power
     int powered;
 } pm_contents;
+
+static const char *surface_word(pm_bsdf_type type)
+{
+    switch (type) {
+    case PM_BSDF_DIELECTRIC:
+        return "glass";
+    case PM_BSDF_THIN_DIELECTRIC:
+        return "a pane";
+    case PM_BSDF_ROUGH_CONDUCTOR:
+        return "polished metal";
+    case PM_BSDF_PLASTIC:
+    case PM_BSDF_ROUGH_PLASTIC:
+        return "a smooth coat";
+    default:
+        return "a mirror";
+    }
+}
 
 static void look_at_side(const pm_scene *scene, const pm_shape *shape, int side,
                          pm_contents *contents)
@@ -22,17 +44,16 @@ static void look_at_side(const pm_scene *scene, const pm_shape *shape, int side,
         return;
     }
     const pm_material *material = &scene->materials[index];
-    bool diffuse = material->type == PM_BSDF_DIFFUSE;
-    bool specular = material->type == PM_BSDF_DIELECTRIC || material->type == PM_BSDF_CONDUCTOR;
-    if (diffuse && contents->diffuse == NULL) {
+    pm_material_traits traits = pm_material_traits_of(material);
+    if (traits.diffuse && contents->diffuse == NULL) {
         contents->diffuse = shape->id;
     }
-    if (specular && contents->specular == NULL) {
-        contents->specular = shape->id;
-    }
-    bool reflecting = diffuse && !pm_spectrum_is_black(material->reflectance);
-    if (reflecting && contents->reflecting == NULL) {
+    if (traits.reflecting && contents->reflecting == NULL) {
         contents->reflecting = shape->id;
+    }
+    if (traits.specular && contents->specular == NULL) {
+        contents->specular = shape->id;
+        contents->surface = surface_word(material->type);
     }
 }
 
@@ -44,9 +65,11 @@ static pm_contents look_around(const pm_scene *scene)
         look_at_side(scene, &scene->shapes[i], 1, &contents);
     }
     for (int i = 0; i < scene->light_count; i++) {
-        if (!pm_spectrum_is_black(scene->lights[i].flux)) {
+        if (pm_spectrum_is_black(scene->lights[i].flux)) {
+            continue;
+        }
+        if (contents.powered++ == 0) {
             contents.light = scene->lights[i].id;
-            contents.powered++;
         }
     }
     return contents;
@@ -66,33 +89,45 @@ decide(pm_plan *plan, pm_plan_part part, bool needed, const char *format, ...)
     va_end(arguments);
 }
 
-static void plan_surfaces(pm_plan *plan, const pm_contents *has)
+static void plan_direct(pm_plan *plan, const pm_contents *has)
 {
-    if (has->diffuse != NULL) {
+    if (has->diffuse == NULL) {
+        decide(plan, PM_PLAN_DIRECT, false, "no surface scatters diffusely");
+    } else if (has->powered == 1) {
         decide(plan, PM_PLAN_DIRECT, true, "%s lights diffuse surfaces such as %s", has->light,
                has->diffuse);
     } else {
-        decide(plan, PM_PLAN_DIRECT, false, "no surface scatters diffusely");
+        decide(plan, PM_PLAN_DIRECT, true, "%s and %d more light diffuse surfaces such as %s",
+               has->light, has->powered - 1, has->diffuse);
     }
-    if (has->specular != NULL) {
-        decide(plan, PM_PLAN_SPECULAR, true, "%s mirrors or refracts what is seen",
-               has->specular);
+}
+
+static void plan_specular(pm_plan *plan, const pm_contents *has)
+{
+    static const char none[] = "no mirror, glass, pane, polished metal or smooth coat";
+    if (has->specular == NULL) {
+        decide(plan, PM_PLAN_SPECULAR, false, "%s", none);
+        decide(plan, PM_PLAN_CAUSTIC, false, "%s", none);
+        return;
+    }
+    decide(plan, PM_PLAN_SPECULAR, true, "%s has %s, in which other things are seen",
+           has->specular, has->surface);
+    if (has->diffuse == NULL) {
+        decide(plan, PM_PLAN_CAUSTIC, false, "nothing diffuse to catch it");
     } else {
-        decide(plan, PM_PLAN_SPECULAR, false, "no mirror and no glass");
+        decide(plan, PM_PLAN_CAUSTIC, true,
+               "%s has %s, which can throw light onto diffuse surfaces such as %s",
+               has->specular, has->surface, has->diffuse);
     }
-    if (has->specular != NULL && has->diffuse != NULL) {
-        decide(plan, PM_PLAN_CAUSTIC, true, "%s can throw light onto diffuse %s", has->specular,
-               has->diffuse);
+}
+
+static void plan_indirect(pm_plan *plan, const pm_contents *has)
+{
+    if (has->reflecting == NULL) {
+        decide(plan, PM_PLAN_INDIRECT, false, "no diffuse surface reflects");
     } else {
-        decide(plan, PM_PLAN_CAUSTIC, false, "%s",
-               has->specular == NULL ? "no mirror and no glass"
-                                     : "nothing diffuse to catch it");
-    }
-    if (has->reflecting != NULL) {
         decide(plan, PM_PLAN_INDIRECT, true, "diffuse surfaces such as %s pass light on",
                has->reflecting);
-    } else {
-        decide(plan, PM_PLAN_INDIRECT, false, "no diffuse surface reflects");
     }
 }
 
@@ -102,9 +137,11 @@ pm_plan pm_plan_scene(const pm_scene *scene)
     pm_contents has = look_around(scene);
     decide(&plan, PM_PLAN_VOLUME, false, "no medium");
     decide(&plan, PM_PLAN_DISPERSION, false, "no glass that disperses");
-    decide(&plan, PM_PLAN_PROJECTION, false, "photons are sent everywhere");
+    decide(&plan, PM_PLAN_PROJECTION, false, "no photon map is traced");
     if (has.powered > 0) {
-        plan_surfaces(&plan, &has);
+        plan_direct(&plan, &has);
+        plan_specular(&plan, &has);
+        plan_indirect(&plan, &has);
         return plan;
     }
     for (pm_plan_part part = PM_PLAN_DIRECT; part <= PM_PLAN_INDIRECT; part++) {
@@ -123,10 +160,63 @@ bool pm_plan_needs_map(const pm_plan *plan, pm_map_kind kind)
     return plan->item[part[kind]].needed;
 }
 
+void pm_plan_aim(pm_plan *plan, const pm_projections *const aim[PM_MAP_COUNT])
+{
+    char said[sizeof plan->item[0].why] = "";
+    bool needed = false;
+    for (int kind = 0; kind < PM_MAP_COUNT; kind++) {
+        if (aim[kind] == NULL) {
+            continue;
+        }
+        size_t used = strlen(said);
+        const char *between = used > 0 ? "; " : "";
+        snprintf(said + used, sizeof said - used, "%s%s map: %s", between, pm_map_name(kind),
+                 aim[kind]->why);
+        if (pm_projection_of(aim[kind]) != NULL) {
+            needed = true;
+            used = strlen(said);
+            snprintf(said + used, sizeof said - used, " (%.3g %% of the power is never sent)",
+                     100.0 * (1.0 - aim[kind]->sent));
+        }
+    }
+    if (said[0] != '\0') {
+        decide(plan, PM_PLAN_PROJECTION, needed, "%s", said);
+    }
+}
+
 void pm_plan_miss(pm_plan *plan, pm_plan_part part, const char *what)
 {
-    decide(plan, part, true, "%s", what);
-    plan->item[part].missing = true;
+    pm_plan_item *item = &plan->item[part];
+    item->missing = true;
+    snprintf(item->left_out, sizeof item->left_out, "%s", what);
+}
+
+pm_status pm_plan_split(uint64_t total, const bool traced[PM_MAP_COUNT],
+                        uint64_t photons[PM_MAP_COUNT])
+{
+    static const uint64_t weight[PM_MAP_COUNT] = {2, 2, 1};
+    uint64_t weights = 0;
+    for (int kind = 0; kind < PM_MAP_COUNT; kind++) {
+        weights += traced[kind] ? weight[kind] : 0;
+    }
+    uint64_t split[PM_MAP_COUNT] = {0};
+    uint64_t left = total;
+    for (int kind = 0; kind < PM_MAP_COUNT; kind++) {
+        if (!traced[kind]) {
+            continue;
+        }
+        split[kind] = left / weights * weight[kind] + left % weights * weight[kind] / weights;
+        left -= split[kind];
+        weights -= weight[kind];
+        if (split[kind] == 0) {
+            return pm_status_fail(PM_EINPUT,
+                                  "--photons must leave a photon for each map that the scene "
+                                  "needs, got %llu",
+                                  (unsigned long long)total);
+        }
+    }
+    memcpy(photons, split, sizeof split);
+    return PM_OK;
 }
 
 const char *pm_plan_name(pm_plan_part part)
@@ -134,4 +224,11 @@ const char *pm_plan_name(pm_plan_part part)
     static const char *const names[PM_PLAN_COUNT] = {
         "direct", "specular", "caustic", "indirect", "volume", "dispersion", "projection"};
     return names[part];
+}
+
+const char *pm_plan_paths(pm_plan_part part)
+{
+    static const char *const paths[PM_PLAN_COUNT] = {
+        "LD", "L{S|D}*S", "LS+D", "L{S|D}*D{S|D}*D", "L{S|D|V}*V", "", ""};
+    return paths[part];
 }

@@ -12,6 +12,7 @@
 typedef struct {
     uint32_t seed;
     uint64_t photons[PM_MAP_COUNT]; // to emit; 0: the map is off by choice
+    uint64_t total;                 // to emit in all, split by the plan instead; 0: off
     uint64_t stored;                // emit until each map holds this many instead; 0: off
     pm_roulette_rule roulette;
     uint32_t max_bounces; // 0: the rule of pm_caps_of()
@@ -29,6 +30,8 @@ pm_render_settings pm_render_defaults(void);
 /// The maps of a picture and how they came to be.
 typedef struct {
     pm_plan plan;
+    uint64_t photons[PM_MAP_COUNT]; // to emit for each map; 0: not traced
+    uint64_t shadow_photons;        // besides; 0: none
     bool has[PM_MAP_COUNT];
     pm_photon_map map[PM_MAP_COUNT];
     pm_pass_report pass[PM_MAP_COUNT];    // zeroed where a stored map was given
@@ -52,8 +55,23 @@ typedef struct {
     bool black;          // no pixel has any light
 } pm_eye_report;
 
-/// Traces and balances the maps that the scene and the wanted layers need and `settings` does
-/// not switch off; what is missing for a map that is off is noted in the plan.
+/// Decides what is to be done, and does nothing of it yet: the plan, with what is missing for a
+/// map that is off; how many photons go to each map that the scene and the wanted layers need
+/// and that is not there already; how they are aimed.
+///
+/// @param maps  [in, out] zeroed, or with maps given; free with pm_render_maps_free() in any
+/// case
+/// @return PM_EINPUT when settings->total is too small to be split
+pm_status pm_render_plan(const pm_scene *scene, const pm_render_settings *settings,
+                         pm_render_maps *maps);
+
+/// Whether the picture shows `layer`, by itself or in mirrors.
+bool pm_render_shows(const pm_render_settings *settings, pm_layer layer);
+
+/// Whether `precompute` finds something to do: a global map, and gather rays to look it up.
+bool pm_render_precomputes(const pm_render_settings *settings, const pm_render_maps *maps);
+
+/// Plans (pm_render_plan()), then traces and balances what was planned.
 /// A map that is there already (`has` set, from a file) is balanced if it is not and kept.
 ///
 /// @param maps  [in, out] zeroed, or with maps given; free with pm_render_maps_free() in any

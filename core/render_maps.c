@@ -1,8 +1,9 @@
-// The first half of a picture: the maps that its plan asks for.
+// The first half of a picture: the maps that its plan asks for, and what is made from them.
 #include "render.h"
 
 #include "balance.h"
 #include "clock.h"
+#include "irradiance.h"
 #include "photon_map.h"
 
 #define GIVE_UP_AFTER 100 // photons emitted for one that was to be stored
@@ -26,11 +27,12 @@ static pm_status trace_map(const pm_intersector *world, const pm_render_settings
     uint64_t most = settings->stored * GIVE_UP_AFTER;
     pm_pass_settings pass = {
         .seed = settings->seed,
-        .count = settings->stored == 0 ? settings->photons[kind] : most,
+        .count = settings->stored == 0 ? maps->photons[kind] : most,
         .stored = settings->stored,
         .rule = settings->roulette,
         .max_bounces = settings->max_bounces,
         .unpacked = settings->unpacked,
+        .projections = pm_projection_of(&maps->aim[kind]),
     };
     PM_TRY(pm_photon_pass(world, kind, &pass, &maps->map[kind], &maps->pass[kind]));
     maps->has[kind] = true;
@@ -48,46 +50,45 @@ static pm_status balance_map(pm_render_maps *maps, pm_map_kind kind)
     return PM_OK;
 }
 
-/// Whether a layer that is wanted asks the map of `kind`; dots show every map.
-static bool asked_for(const pm_render_settings *settings, pm_map_kind kind)
+static pm_status make_shadows(const pm_intersector *world, const pm_render_settings *settings,
+                              pm_render_maps *maps)
 {
-    static const int layer[PM_MAP_COUNT] = {
-        [PM_MAP_GLOBAL] = PM_LAYER_INDIRECT,
-        [PM_MAP_CAUSTIC] = PM_LAYER_CAUSTIC,
-        [PM_MAP_VOLUME] = PM_LAYER_VOLUME,
-    };
-    int only = settings->only;
-    return settings->view_photons || only == PM_NONE || only == PM_LAYER_SPECULAR ||
-           only == layer[kind];
+    if (maps->shadow_photons == 0) {
+        return PM_OK;
+    }
+    double start = pm_seconds_now();
+    PM_TRY(pm_shadow_make(world, settings->seed, maps->shadow_photons, &maps->shadows));
+    maps->shadow_seconds = pm_seconds_now() - start;
+    return PM_OK;
 }
 
-/// The plan says what a map that is off by choice leaves out of the picture.
-static void name_what_is_missing(pm_plan *plan, pm_map_kind kind)
+static pm_status make_irradiance(const pm_intersector *world,
+                                 const pm_render_settings *settings, pm_render_maps *maps)
 {
-    if (kind == PM_MAP_GLOBAL) {
-        pm_plan_miss(plan, PM_PLAN_INDIRECT,
-                     "no global map by choice: all indirect light is missing");
-    } else if (kind == PM_MAP_CAUSTIC) {
-        pm_plan_miss(plan, PM_PLAN_CAUSTIC, "no caustic map by choice: paths LS+D are missing");
+    if (!pm_render_precomputes(settings, maps)) {
+        return PM_OK;
     }
+    double start = pm_seconds_now();
+    PM_TRY(pm_irradiance_make(world, &maps->map[PM_MAP_GLOBAL], &settings->light.estimate,
+                              PM_IRRADIANCE_SPACING, &maps->irradiance));
+    maps->irradiance_seconds = pm_seconds_now() - start;
+    return PM_OK;
 }
 
 pm_status pm_render_make_maps(const pm_intersector *world, const pm_render_settings *settings,
                               pm_render_maps *maps)
 {
-    maps->plan = pm_plan_scene(world->scene);
+    PM_TRY(pm_render_plan(world->scene, settings, maps));
     for (pm_map_kind kind = 0; kind < PM_MAP_COUNT; kind++) {
-        bool needed = pm_plan_needs_map(&maps->plan, kind) && asked_for(settings, kind);
-        if (needed && !maps->has[kind] && settings->photons[kind] == 0) {
-            name_what_is_missing(&maps->plan, kind);
-        } else if (needed && !maps->has[kind]) {
+        if (maps->photons[kind] > 0) {
             PM_TRY(trace_map(world, settings, kind, maps));
         }
         if (maps->has[kind]) {
             PM_TRY(balance_map(maps, kind));
         }
     }
-    return PM_OK;
+    PM_TRY(make_shadows(world, settings, maps));
+    return make_irradiance(world, settings, maps);
 }
 
 void pm_render_maps_free(pm_render_maps *maps)
@@ -95,6 +96,9 @@ void pm_render_maps_free(pm_render_maps *maps)
     for (pm_map_kind kind = 0; kind < PM_MAP_COUNT; kind++) {
         pm_photon_map_free(&maps->map[kind]);
         pm_pass_report_free(&maps->pass[kind]);
+        pm_projection_free(&maps->aim[kind]);
     }
+    pm_photon_map_free(&maps->irradiance);
+    pm_shadow_free(&maps->shadows);
     *maps = (pm_render_maps){0};
 }

@@ -158,7 +158,7 @@ static void print_remarks(const pm_render_maps *maps, const pm_eye_report *eye)
     }
     for (pm_plan_part part = 0; part < PM_PLAN_COUNT; part++) {
         if (maps->plan.item[part].missing) {
-            puts(maps->plan.item[part].why);
+            puts(maps->plan.item[part].left_out);
         }
     }
     if (eye->cut > 0) {

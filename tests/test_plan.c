@@ -130,7 +130,7 @@ static void reasons_name_what_is_there(void)
     pm_scenes_free(&s);
     build(&s, &expectations[0]);
     plan = pm_plan_scene(&s.scene);
-    CHECK_CONTAINS(plan.item[PM_PLAN_CAUSTIC].why, "no mirror and no glass");
+    CHECK_CONTAINS(plan.item[PM_PLAN_CAUSTIC].why, "no mirror, glass");
     pm_scenes_free(&s);
     build(&s, &expectations[1]);
     plan = pm_plan_scene(&s.scene);

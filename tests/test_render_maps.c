@@ -28,7 +28,7 @@ static void maps_that_nothing_needs_are_not_traced(void)
     CHECK_OK(pm_render_make_maps(&s.world, &settings, &maps));
     CHECK(!maps.has[PM_MAP_GLOBAL] && maps.plan.item[PM_PLAN_INDIRECT].needed);
     CHECK(maps.plan.item[PM_PLAN_INDIRECT].missing);
-    CHECK_CONTAINS(maps.plan.item[PM_PLAN_INDIRECT].why, "by choice");
+    CHECK_CONTAINS(maps.plan.item[PM_PLAN_INDIRECT].left_out, "by choice");
     pm_render_maps_free(&maps);
     pm_scenes_free(&s);
 }

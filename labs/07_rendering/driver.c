@@ -19,8 +19,8 @@ static const pm_options_program program = {
     .positional_least = 1,
     .positional_most = 1,
     .options = "o png exposure size spp photons global-photons caustic-photons gather k r shape"
-               " flatness filter kernel-constants preset packing roulette max-bounces view only"
-               " map explain check report",
+               " flatness filter kernel-constants direct caustics precompute projection preset"
+               " packing roulette max-bounces view only map explain check report",
     .notes =
         "-o or --png must be given. -o writes an EXR file with the layers direct, specular,\n"
         "caustic, indirect, volume and emission, which add up to R G B, and depth, normal,\n"
@@ -37,30 +37,12 @@ typedef struct {
     pm_eye_report eye;
 } pm_job;
 
-/// Deals --photons out to the maps that the scene needs.
-static void split_photons(const pm_plan *plan, uint64_t total, uint64_t photons[PM_MAP_COUNT])
-{
-    uint64_t needed = 0;
-    for (pm_map_kind kind = 0; kind < PM_MAP_COUNT; kind++) {
-        needed += pm_plan_needs_map(plan, kind);
-    }
-    for (pm_map_kind kind = 0; kind < PM_MAP_COUNT; kind++) {
-        photons[kind] = 0;
-        if (pm_plan_needs_map(plan, kind)) {
-            photons[kind] = total / needed--;
-            total -= photons[kind];
-        }
-    }
-}
-
-static pm_render_settings settings_of(const pm_options *options, const pm_plan *plan)
+static pm_render_settings settings_of(const pm_options *options)
 {
     pm_render_settings settings = pm_render_defaults();
     settings.seed = options->seed;
     memcpy(settings.photons, options->photons, sizeof settings.photons);
-    if (options->photons_total > 0) {
-        split_photons(plan, options->photons_total, settings.photons);
-    }
+    settings.total = options->photons_total;
     settings.stored = options->stored;
     settings.roulette = options->roulette;
     settings.max_bounces = options->max_bounces;
@@ -68,8 +50,12 @@ static pm_render_settings settings_of(const pm_options *options, const pm_plan *
     settings.light.estimate = options->estimate;
     settings.light.rays = options->gather;
     settings.light.spp = options->spp;
+    settings.light.caustics_global = options->caustics_global;
     settings.only = options->only;
     settings.view_photons = options->view_photons;
+    settings.everywhere = options->everywhere;
+    settings.direct_photons = options->direct_photons;
+    settings.precompute = options->precompute;
     return settings;
 }
 
@@ -102,9 +88,6 @@ static pm_status make_picture(pm_job *job)
         return pm_status_fail(
             PM_EINPUT, "render: say where the picture goes: -o FILE.exr or --png FILE.png");
     }
-    for (int i = 0; i < options->map_count; i++) {
-        PM_TRY(load_map(job, options->map[i]));
-    }
     PM_TRY(pm_render_make_maps(&job->world.rays, &job->settings, &job->maps));
     PM_TRY(
         pm_render_image(&job->world.rays, &job->settings, &job->maps, &job->image, &job->eye));
@@ -117,17 +100,26 @@ static pm_status make_picture(pm_job *job)
     return PM_OK;
 }
 
+static pm_status explain(pm_job *job)
+{
+    const pm_scene *scene = &job->world.scene;
+    PM_TRY(pm_render_plan(scene, &job->settings, &job->maps));
+    return pm_render_report_plan(job->options, &job->maps.plan);
+}
+
 static pm_status run(pm_job *job)
 {
     const pm_options *options = job->options;
     PM_TRY(pm_world_open(options, true, &job->world));
-    pm_plan plan = pm_plan_scene(&job->world.scene);
-    job->settings = settings_of(options, &plan);
+    job->settings = settings_of(options);
     if (options->check_scene) {
         return pm_render_report_check(options, &job->world.scene);
     }
+    for (int i = 0; i < options->map_count; i++) {
+        PM_TRY(load_map(job, options->map[i]));
+    }
     if (options->explain) {
-        return pm_render_report_plan(options, &plan);
+        return explain(job);
     }
     PM_TRY(make_picture(job));
     return pm_render_report(options, &job->world.scene, &job->settings, &job->maps, &job->eye);
