@@ -3,6 +3,7 @@
 #include "scenes.h"
 
 #include "intersect_plain.h"
+#include "light.h"
 #include "shape.h"
 #include "shapes.h"
 #include "test.h"
@@ -144,6 +145,28 @@ int pm_scenes_sun(pm_scenes *s, pm_vec3 direction, pm_spectrum irradiance)
                                    .emitted = irradiance});
 }
 
+int pm_scenes_spot(pm_scenes *s, pm_vec3 position, pm_vec3 direction, const double cone[2],
+                   pm_spectrum intensity)
+{
+    pm_light spot = {.type = PM_LIGHT_SPOT,
+                     .id = "spot",
+                     .shape = PM_NONE,
+                     .position = position,
+                     .direction = pm_vec_normalize(direction),
+                     .beam = cone[0],
+                     .cutoff = cone[1],
+                     .emitted = intensity};
+    spot.flux = pm_spectrum_scale(intensity, pm_light_cone(&spot));
+    return add_light(s, spot);
+}
+
+int pm_scenes_sky(pm_scenes *s, pm_spectrum radiance)
+{
+    return add_light(
+        s, (pm_light){
+               .type = PM_LIGHT_CONSTANT, .id = "sky", .shape = PM_NONE, .emitted = radiance});
+}
+
 static void measure(pm_scene *scene)
 {
     scene->low = pm_vec(HUGE_VAL, HUGE_VAL, HUGE_VAL);
@@ -157,7 +180,7 @@ static void measure(pm_scene *scene)
         }
     }
     for (int i = 0; i < scene->light_count; i++) {
-        if (scene->lights[i].type == PM_LIGHT_POINT) {
+        if (scene->lights[i].type == PM_LIGHT_POINT || scene->lights[i].type == PM_LIGHT_SPOT) {
             scene->low = pm_vec_min(scene->low, scene->lights[i].position);
             scene->high = pm_vec_max(scene->high, scene->lights[i].position);
         }
@@ -174,6 +197,8 @@ void pm_scenes_ready(pm_scenes *s)
         pm_light *light = &s->lights[i];
         if (light->type == PM_LIGHT_DIRECTIONAL) {
             light->flux = pm_spectrum_scale(light->emitted, disc);
+        } else if (light->type == PM_LIGHT_CONSTANT) {
+            light->flux = pm_spectrum_scale(light->emitted, 4.0 * PM_PI * disc);
         }
     }
     CHECK_OK(pm_intersect_plain(&s->scene, &s->world));

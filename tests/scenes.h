@@ -56,7 +56,13 @@ int pm_scenes_point(pm_scenes *s, pm_vec3 position, pm_spectrum flux);
 int pm_scenes_lamp(pm_scenes *s, int shape, pm_spectrum radiance);
 int pm_scenes_sun(pm_scenes *s, pm_vec3 direction, pm_spectrum irradiance);
 
-/// Bounds, radius, flux of the suns, ray queries.
+/// A spot by the intensity of its beam [W/sr] and two half angles [rad]; and the same radiance
+/// from all around, whose flux is set by pm_scenes_ready().
+int pm_scenes_spot(pm_scenes *s, pm_vec3 position, pm_vec3 direction, const double cone[2],
+                   pm_spectrum intensity);
+int pm_scenes_sky(pm_scenes *s, pm_spectrum radiance);
+
+/// Bounds, radius, flux of suns and skies, ray queries.
 void pm_scenes_ready(pm_scenes *s);
 
 void pm_scenes_free(pm_scenes *s);
