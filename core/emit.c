@@ -4,22 +4,45 @@
 #include "emit.h"
 
 #include "shape.h"
+#include "spot.h"
 
 #include <stddef.h>
 #include <string.h>
 
-static double light_power(const pm_light *light)
+static const pm_projection *projection_of(const pm_projection *projections, int light)
 {
-    return pm_spectrum_mean(light->flux);
+    return projections == NULL ? NULL : &projections[light];
 }
 
-/// Rounds every share down, but no powered light below one photon. Returns the photons given.
-static uint64_t share_rounded_down(const pm_scene *scene, uint64_t count, double total,
+/// Share of a light's power that is sent.
+static double lit_fraction(const pm_projection *projection)
+{
+    if (projection == NULL || projection->rows == 0) {
+        return 1.0;
+    }
+    return projection->lit_count / ((double)projection->rows * projection->columns);
+}
+
+/// What each light sends [W], the mean of its channels.
+typedef struct {
+    const pm_scene *scene;
+    const pm_projection *projections;
+} sending;
+
+static double sent_power(const sending *all, int light)
+{
+    double lit = lit_fraction(projection_of(all->projections, light));
+    return pm_spectrum_mean(all->scene->lights[light].flux) * lit;
+}
+
+/// Rounds every share down, but no light that sends below one photon. Returns the photons
+/// given.
+static uint64_t share_rounded_down(const sending *all, uint64_t count, double total,
                                    uint64_t *share)
 {
     uint64_t given = 0;
-    for (int i = 0; i < scene->light_count; i++) {
-        double power = light_power(&scene->lights[i]);
+    for (int i = 0; i < all->scene->light_count; i++) {
+        double power = sent_power(all, i);
         share[i] = (uint64_t)((double)count * (power / total));
         if (share[i] == 0 && power > 0.0) {
             share[i] = 1;
@@ -31,15 +54,15 @@ static uint64_t share_rounded_down(const pm_scene *scene, uint64_t count, double
 
 /// The light whose photons carry the most power (`most` true) or the least, among those that
 /// can gain or lose one.
-static int light_out_of_step(const pm_scene *scene, const uint64_t *share, bool most)
+static int light_out_of_step(const sending *all, const uint64_t *share, bool most)
 {
     int found = PM_NONE;
     double extreme = 0.0;
-    for (int i = 0; i < scene->light_count; i++) {
+    for (int i = 0; i < all->scene->light_count; i++) {
         if (share[i] == 0 || (!most && share[i] == 1)) {
             continue;
         }
-        double each = light_power(&scene->lights[i]) / (double)share[i];
+        double each = sent_power(all, i) / (double)share[i];
         if (found == PM_NONE || (most ? each > extreme : each < extreme)) {
             found = i;
             extreme = each;
@@ -51,49 +74,56 @@ static int light_out_of_step(const pm_scene *scene, const uint64_t *share, bool 
 pm_status pm_emit_share(const pm_scene *scene, const pm_projection *projections, uint64_t count,
                         uint64_t *share)
 {
-    (void)projections;
+    const sending all = {scene, projections};
     double total = 0.0;
-    uint64_t powered = 0;
+    uint64_t senders = 0;
     for (int i = 0; i < scene->light_count; i++) {
-        total += light_power(&scene->lights[i]);
-        powered += light_power(&scene->lights[i]) > 0.0;
+        total += sent_power(&all, i);
+        senders += sent_power(&all, i) > 0.0;
     }
-    if (powered == 0) {
+    if (senders == 0) {
         memset(share, 0, (size_t)scene->light_count * sizeof *share);
         return PM_OK;
     }
-    if (count < powered || count > PM_EMIT_MAX) {
+    if (count < senders || count > PM_EMIT_MAX) {
         return pm_status_fail(
             PM_EINPUT,
             "%s: a pass emits between %llu (one photon a light) and %u photons,"
             " got %llu",
-            scene->path, (unsigned long long)powered, PM_EMIT_MAX, (unsigned long long)count);
+            scene->path, (unsigned long long)senders, PM_EMIT_MAX, (unsigned long long)count);
     }
-    uint64_t given = share_rounded_down(scene, count, total, share);
+    uint64_t given = share_rounded_down(&all, count, total, share);
     for (; given < count; given++) {
-        share[light_out_of_step(scene, share, true)]++;
+        share[light_out_of_step(&all, share, true)]++;
     }
     for (; given > count; given--) {
-        share[light_out_of_step(scene, share, false)]--;
+        share[light_out_of_step(&all, share, false)]--;
     }
     return PM_OK;
 }
 
+/// A place in cell `cell` of `count` along one side. Rounding must not reach the next cell.
+static double within(double cell, double offset, double count)
+{
+    return pm_least((cell + offset) / count, nextafter((cell + 1.0) / count, 0.0));
+}
+
 pm_status pm_emit_cell(const pm_projection *projection, pm_rng *rng, double u[2])
 {
-    if (projection == NULL || projection->lit_count == 0) {
+    if (projection == NULL || projection->rows == 0) {
         u[0] = pm_rng_draw(rng);
         u[1] = pm_rng_draw(rng);
         return PM_OK;
     }
+    if (projection->lit_count == 0) {
+        return PM_FAIL(PM_EINPUT, "a light without a lit cell sends nothing");
+    }
     double pick = pm_rng_draw(rng) * projection->lit_count;
     uint32_t cell = projection->lit[(uint32_t)pick];
-    double row = cell / projection->columns;
-    double column = cell % projection->columns;
     double across = pm_rng_draw(rng);
     double along = pm_rng_draw(rng);
-    u[0] = (row + across) / projection->rows;
-    u[1] = (column + along) / projection->columns;
+    u[0] = within(cell / projection->columns, across, projection->rows);
+    u[1] = within(cell % projection->columns, along, projection->columns);
     return PM_OK;
 }
 
@@ -112,6 +142,20 @@ static pm_status emit_point(const pm_light *light, const pm_projection *projecti
     PM_TRY(pm_emit_cell(projection, rng, u));
     ray->origin = light->position;
     ray->direction = sphere_direction(u);
+    return PM_OK;
+}
+
+static pm_status emit_spot(const pm_light *light, const pm_projection *projection, pm_rng *rng,
+                           pm_ray *ray)
+{
+    double u[2];
+    PM_TRY(pm_emit_cell(projection, rng, u));
+    double angle = pm_spot_angle(light, u[0]);
+    double phi = 2.0 * PM_PI * u[1];
+    pm_frame frame = pm_frame_around(light->direction);
+    pm_vec3 local = pm_vec(sin(angle) * cos(phi), sin(angle) * sin(phi), cos(angle));
+    ray->origin = light->position;
+    ray->direction = pm_frame_to_world(&frame, local);
     return PM_OK;
 }
 
@@ -135,18 +179,35 @@ static pm_status emit_area(const pm_shape *shape, const pm_projection *projectio
     return PM_OK;
 }
 
+/// A start on the scene's disc across `direction`. Two radii back: whatever touches the
+/// bounding sphere is still ahead.
+static pm_vec3 start_before(const pm_scene *scene, pm_vec3 direction, const double u[2])
+{
+    double radius = scene->radius * sqrt(u[0]);
+    double phi = 2.0 * PM_PI * u[1];
+    pm_frame frame = pm_frame_around(direction);
+    return pm_frame_to_world(
+        &frame, pm_vec(radius * cos(phi), radius * sin(phi), -2.0 * scene->radius));
+}
+
 static pm_status emit_directional(const pm_scene *scene, const pm_light *light,
                                   const pm_projection *projection, pm_rng *rng, pm_ray *ray)
 {
     double u[2];
     PM_TRY(pm_emit_cell(projection, rng, u));
-    double radius = scene->radius * sqrt(u[0]);
-    double phi = 2.0 * PM_PI * u[1];
-    pm_frame frame = pm_frame_around(light->direction);
-    // Two radii back: whatever touches the bounding sphere is still ahead.
-    ray->origin = pm_frame_to_world(
-        &frame, pm_vec(radius * cos(phi), radius * sin(phi), -2.0 * scene->radius));
+    ray->origin = start_before(scene, light->direction, u);
     ray->direction = light->direction;
+    return PM_OK;
+}
+
+static pm_status emit_constant(const pm_scene *scene, pm_rng *rng, pm_ray *ray)
+{
+    double way[2];
+    double start[2];
+    PM_TRY(pm_emit_cell(NULL, rng, way));
+    PM_TRY(pm_emit_cell(NULL, rng, start));
+    ray->direction = sphere_direction(way);
+    ray->origin = start_before(scene, ray->direction, start);
     return PM_OK;
 }
 
@@ -160,6 +221,10 @@ static pm_status emit_by_type(const pm_scene *scene, const pm_light *light,
         return emit_area(&scene->shapes[light->shape], projection, rng, ray);
     case PM_LIGHT_DIRECTIONAL:
         return emit_directional(scene, light, projection, rng, ray);
+    case PM_LIGHT_SPOT:
+        return emit_spot(light, projection, rng, ray);
+    case PM_LIGHT_CONSTANT:
+        return emit_constant(scene, rng, ray);
     default:
         break;
     }
@@ -193,14 +258,6 @@ static uint32_t light_of(const pm_emission *emission, uint64_t photon)
     return last;
 }
 
-static double lit_fraction(const pm_projection *projection)
-{
-    if (projection == NULL || projection->lit_count == 0) {
-        return 1.0;
-    }
-    return projection->lit_count / ((double)projection->rows * projection->columns);
-}
-
 pm_status pm_emit_photons(const pm_emission *emission, uint64_t first, uint32_t count,
                           pm_start *starts)
 {
@@ -210,7 +267,7 @@ pm_status pm_emit_photons(const pm_emission *emission, uint64_t first, uint32_t 
         start->light = light_of(emission, start->photon);
         const pm_light *light = &emission->scene->lights[start->light];
         const pm_projection *projection =
-            emission->projections == NULL ? NULL : &emission->projections[start->light];
+            projection_of(emission->projections, (int)start->light);
         pm_rng rng = pm_rng_at(&emission->source, start->photon, 0);
         PM_TRY(pm_emit_ray(emission->scene, light, projection, &rng, &start->ray));
 

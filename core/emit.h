@@ -51,9 +51,10 @@ pm_status pm_emit_share(const pm_scene *scene, const pm_projection *projections,
                         uint64_t *share);
 
 /// Two uniform numbers in [0,1)^2 inside a lit cell, every lit cell equally likely; plain
-/// uniform numbers when `projection` is NULL or has no cells.
+/// uniform numbers when `projection` is NULL or has no rows.
 ///
 /// @param u  [out]
+/// @return PM_EINPUT when no cell is lit
 pm_status pm_emit_cell(const pm_projection *projection, pm_rng *rng, double u[2]);
 
 /// One photon's ray from `light`, distributed as the light's power is.
@@ -63,6 +64,14 @@ pm_status pm_emit_cell(const pm_projection *projection, pm_rng *rng, double u[2]
 /// the scene's bounding sphere that faces the light, before everything. Constant: like a
 /// directional light from a direction uniform on the sphere. `projection` (or NULL) picks the
 /// cell of the direction; for a directional light, of the start; for a constant one, nothing.
+///
+/// What the cell's two numbers u mean is fixed, because projection.h cuts the same square. The
+/// second one is the azimuth, 2 pi u[1] from s to t in pm_frame_around(axis). The first one is
+/// the share of power nearer to the axis:
+///     point        axis +z;                cos theta = 1 - 2 u[0]
+///     area         axis the start's normal; sin theta = sqrt(u[0])
+///     spot         axis its direction;     theta = pm_spot_angle(light, u[0])
+///     directional  axis its direction;     distance from the scene's centre R sqrt(u[0])
 ///
 /// @param ray  [out] unit direction, t_max infinite, wavelength 0, medium the light's
 pm_status pm_emit_ray(const pm_scene *scene, const pm_light *light,

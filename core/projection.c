@@ -1,15 +1,228 @@
-// No light is aimed yet.
+// Which lights are aimed at what, and whether that pays. The geometry is in cells.h.
 #include "projection.h"
 
+#include "cells.h"
+#include "material.h"
+#include "shape.h"
+
+#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
+
+#define PAYS_FROM 0.25 // share of all power that must be saved
+
+/// What a map asks to be met first.
+typedef struct {
+    const pm_scene *scene;
+    bool *wanted; // one a shape
+    int count;
+    const char *example; // id of the first one
+} targets;
+
+static bool is_specular(const pm_scene *scene, const pm_shape *shape)
+{
+    for (int side = 0; side < 2; side++) {
+        int material = shape->material[side];
+        if (material != PM_NONE &&
+            pm_material_traits_of(&scene->materials[material]).specular) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static pm_status choose_targets(const pm_scene *scene, pm_map_kind kind, targets *out)
+{
+    targets chosen = {.scene = scene};
+    chosen.wanted = calloc((size_t)scene->shape_count + 1, sizeof *chosen.wanted);
+    if (chosen.wanted == NULL) {
+        return PM_FAIL(PM_ENOMEM, "no memory for %d targets", scene->shape_count);
+    }
+    for (int i = 0; i < scene->shape_count; i++) {
+        const pm_shape *shape = &scene->shapes[i];
+        chosen.wanted[i] = kind == PM_MAP_CAUSTIC ? is_specular(scene, shape)
+                                                  : !pm_shape_is_null(scene, shape);
+        if (chosen.wanted[i] && chosen.count++ == 0) {
+            chosen.example = shape->id;
+        }
+    }
+    *out = chosen;
+    return PM_OK;
+}
+
+/// The pieces of all targets, shape by shape: those of shape i end at end[i].
+typedef struct {
+    pm_pieces pieces;
+    size_t *end;
+} cut_targets;
+
+static void free_cut(cut_targets *cut)
+{
+    pm_pieces_free(&cut->pieces);
+    free(cut->end);
+}
+
+static pm_status cut_up(const targets *aim, cut_targets *out)
+{
+    int count = aim->scene->shape_count;
+    cut_targets cut = {.end = calloc((size_t)count + 1, sizeof *cut.end)};
+    pm_status status =
+        cut.end == NULL ? PM_FAIL(PM_ENOMEM, "no memory for %d targets", count) : PM_OK;
+    for (int i = 0; i < count && status == PM_OK; i++) {
+        if (aim->wanted[i]) {
+            status = pm_pieces_add(&cut.pieces, &aim->scene->shapes[i]);
+        }
+        cut.end[i] = cut.pieces.count;
+    }
+    if (status != PM_OK) {
+        free_cut(&cut);
+        return status;
+    }
+    *out = cut;
+    return PM_OK;
+}
+
+// --- one light ---------------------------------------------------------------------------
+
+/// Lights the cells of everything but the light's own shape: it is flat, and no ray from a
+/// plane comes back to it.
+static void light_cells(const cut_targets *cut, const pm_light *light, int shape_count,
+                        pm_cells *cells)
+{
+    size_t first = 0;
+    for (int i = 0; i < shape_count; i++) {
+        for (size_t j = first; j < cut->end[i] && i != light->shape; j++) {
+            pm_cells_light(cells, &cut->pieces.ball[j]);
+        }
+        first = cut->end[i];
+    }
+}
+
+static void list_lit(const pm_cells *cells, uint32_t *lit, pm_projection *out)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < PM_CELLS; i++) {
+        if (cells->lit[i]) {
+            lit[count++] = i;
+        }
+    }
+    *out = (pm_projection){PM_CELLS_ROWS, PM_CELLS_COLUMNS, lit, count};
+}
+
+/// Whether the map of `kind` aims `light` at all.
+static bool is_aimed(const pm_light *light, pm_map_kind kind)
+{
+    bool spread = light->type == PM_LIGHT_AREA || light->type == PM_LIGHT_CONSTANT;
+    return !pm_spectrum_is_black(light->flux) && (kind == PM_MAP_CAUSTIC || !spread);
+}
+
+// --- all lights --------------------------------------------------------------------------
+
+/// Every light with nothing to reach: one dark cell each.
+static void send_nothing(pm_projections *out)
+{
+    for (int i = 0; i < out->light_count; i++) {
+        out->light[i] = (pm_projection){.rows = 1, .columns = 1};
+    }
+}
+
+static pm_status aim_all(const pm_scene *scene, pm_map_kind kind, const targets *aim,
+                         pm_projections *out)
+{
+    if (aim->count == 0) {
+        send_nothing(out);
+        return PM_OK;
+    }
+    out->storage = malloc((size_t)scene->light_count * PM_CELLS * sizeof *out->storage);
+    if (out->storage == NULL) {
+        return PM_FAIL(PM_ENOMEM, "no memory for the cells of %d lights", scene->light_count);
+    }
+    cut_targets cut;
+    PM_TRY(cut_up(aim, &cut));
+    for (int i = 0; i < scene->light_count; i++) {
+        const pm_light *light = &scene->lights[i];
+        pm_cells cells;
+        if (!is_aimed(light, kind) || !pm_cells_begin(scene, light, &cells)) {
+            continue;
+        }
+        light_cells(&cut, light, scene->shape_count, &cells);
+        if (cells.lit_count < PM_CELLS) {
+            list_lit(&cells, &out->storage[(size_t)i * PM_CELLS], &out->light[i]);
+        }
+    }
+    free_cut(&cut);
+    return PM_OK;
+}
+
+static void sum_up(const pm_scene *scene, pm_projections *out)
+{
+    pm_spectrum all = pm_gray(0.0);
+    for (int i = 0; i < scene->light_count; i++) {
+        const pm_projection *p = &out->light[i];
+        all = pm_spectrum_add(all, scene->lights[i].flux);
+        uint64_t cells = (uint64_t)p->rows * p->columns;
+        if (cells > 0) {
+            double dark = (double)(cells - p->lit_count) / (double)cells;
+            out->dark =
+                pm_spectrum_add(out->dark, pm_spectrum_scale(scene->lights[i].flux, dark));
+            out->cells += cells;
+            out->active += p->lit_count;
+        }
+    }
+    double total = pm_spectrum_mean(all);
+    out->sent = total > 0.0 ? 1.0 - pm_spectrum_mean(out->dark) / total : 1.0;
+}
+
+/// Says what was done; undoes it when it does not pay.
+static void settle(const targets *aim, pm_projections *out)
+{
+    double saved = 1.0 - out->sent;
+    if (saved < PAYS_FROM) {
+        pm_projection_free(out);
+        out->sent = 1.0;
+        snprintf(out->why, sizeof out->why,
+                 "aiming would save only %.3g %% of the power: photons are sent everywhere",
+                 100.0 * saved);
+    } else if (aim->count == 0) {
+        snprintf(out->why, sizeof out->why, "no shape starts a path of this map: none is sent");
+    } else if (aim->count == 1) {
+        snprintf(out->why, sizeof out->why, "photons are aimed at %.80s", aim->example);
+    } else {
+        snprintf(out->why, sizeof out->why, "photons are aimed at %d shapes such as %.80s",
+                 aim->count, aim->example);
+    }
+}
+
+static pm_status make(const pm_scene *scene, pm_map_kind kind, const targets *aim,
+                      pm_projections *out)
+{
+    pm_projections made = {.light_count = scene->light_count};
+    made.light = calloc((size_t)scene->light_count + 1, sizeof *made.light);
+    pm_status status = made.light == NULL
+                           ? PM_FAIL(PM_ENOMEM, "no memory for %d lights", scene->light_count)
+                           : aim_all(scene, kind, aim, &made);
+    if (status != PM_OK) {
+        pm_projection_free(&made);
+        return status;
+    }
+    sum_up(scene, &made);
+    settle(aim, &made);
+    *out = made;
+    return PM_OK;
+}
 
 pm_status pm_projection_make(const pm_scene *scene, pm_map_kind kind, pm_projections *out)
 {
-    (void)scene;
-    (void)kind;
-    *out = (pm_projections){.sent = 1.0, .why = "photons are sent everywhere"};
-    return PM_OK;
+    if (kind != PM_MAP_CAUSTIC && scene->medium_count > 0) {
+        *out = (pm_projections){
+            .sent = 1.0,
+            .why = "a medium may scatter light anywhere: photons are sent everywhere"};
+        return PM_OK;
+    }
+    targets aim = {0};
+    PM_TRY(choose_targets(scene, kind, &aim));
+    pm_status status = make(scene, kind, &aim, out);
+    free(aim.wanted);
+    return status;
 }
 
 void pm_projection_free(pm_projections *projections)
