@@ -109,8 +109,10 @@ MAIN_balancing := labs/04_balancing/driver
 MAIN_radiance := labs/05_radiance/driver
 MAIN_filtering := labs/06_filtering/driver
 MAIN_render := labs/07_rendering/driver
+MAIN_reference := labs/07_rendering/reference
 MAIN_compare := labs/07_rendering/compare
-LAB_PROGRAMS := $(foreach p,emission tracing storage balancing radiance filtering render compare,\
+LAB_PROGRAMS := $(foreach p,emission tracing storage balancing radiance filtering render \
+  reference compare,\
   $(if $(wildcard $(MAIN_$(p)).c),$(p)))
 VIEW := $(if $(VTK_INCLUDE),$(if $(wildcard visualize/view.c),$(BIN)/view))
 PROGRAMS := $(LAB_PROGRAMS:%=$(BIN)/%) $(VIEW)
@@ -127,6 +129,14 @@ $(BIN)/view: $(BUILD)/visualize/view.o $(VISUALIZE) $(VISUALIZE_VTK) $(CORE)
 	@mkdir -p $(@D)
 	$(call tell,link $@)
 	$(HIDE)$(LINK_CXX) -o $@ $^ $(VTK_LIBS) $(PART_LIBS)
+
+# The meshes are in git, so nothing else builds them.
+meshes: $(BUILD)/scenes/meshes/make ## write the meshes of the scenes again, byte for byte
+	$< scenes/meshes
+
+$(BUILD)/scenes/meshes/make: %: %.o $(BUILD)/core/file.o $(BUILD)/core/status.o
+	$(call tell,link $@)
+	$(HIDE)$(LINK) -o $@ $^ -lm
 
 $(BUILD)/%.o: %.c $(BUILD)/flags | $(BUILD)/parts
 	@mkdir -p $(@D)
@@ -232,6 +242,6 @@ help: ## list these targets
 	  printf '  make %-8s %s\n' "$$name" "$$does"; done
 
 FORCE:
-.PHONY: FORCE all build-tests test demo bench check check-format check-lint tidy format \
+.PHONY: FORCE all meshes build-tests test demo bench check check-format check-lint tidy format \
   clean deps doctor help
 -include $(wildcard $(BUILD)/*/*.d $(BUILD)/*/*/*.d)

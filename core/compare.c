@@ -10,7 +10,7 @@ static const char *const channel_names[3] = {"R", "G", "B"};
 
 static const float *find_channel(const pm_image *image, const char *layer, int channel)
 {
-    char name[40];
+    char name[48];
     snprintf(name, sizeof name, "%s%s%s", layer, layer[0] != '\0' ? "." : "",
              channel_names[channel]);
     return pm_image_plane(image, name);
@@ -176,13 +176,20 @@ static double *make_combination(const double *a, const double *b, double factor,
     return plane;
 }
 
-static bool make_noise(const pm_image *image, double *half[2], double **noise)
+/// Halves of the picture or of one layer ("half1.caustic"), where the image has them.
+static bool make_noise(const pm_image *image, const char *layer, double *half[2],
+                       double **noise)
 {
-    if (!has_layer(image, "half1") || !has_layer(image, "half2")) {
-        return true;
+    char name[2][40];
+    for (int h = 0; h < 2; h++) {
+        snprintf(name[h], sizeof name[h], "half%d%s%s", h + 1, layer[0] != '\0' ? "." : "",
+                 layer);
+        if (!has_layer(image, name[h])) {
+            return true;
+        }
     }
-    half[0] = make_luminance(image, "half1");
-    half[1] = make_luminance(image, "half2");
+    half[0] = make_luminance(image, name[0]);
+    half[1] = make_luminance(image, name[1]);
     *noise = make_combination(half[0], half[1], 0.5, pixel_count(image));
     return *noise != NULL;
 }
@@ -194,8 +201,8 @@ static pm_status make_planes(const pm_compare_pair *pair, const char *layer, pla
     p->b = make_luminance(pair->image[1], layer);
     p->difference = make_combination(p->a, p->b, 1.0, p->pixels);
     bool made = p->difference != NULL;
-    for (int i = 0; i < 2 && layer[0] == '\0'; i++) { // only whole pictures have halves
-        made = make_noise(pair->image[i], p->half[i], &p->noise[i]) && made;
+    for (int i = 0; i < 2; i++) {
+        made = make_noise(pair->image[i], layer, p->half[i], &p->noise[i]) && made;
     }
     return made ? PM_OK : PM_FAIL(PM_ENOMEM, "no memory to compare %zu pixels", p->pixels);
 }

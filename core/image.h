@@ -7,7 +7,7 @@
 
 #include <stdint.h>
 
-#define PM_IMAGE_CHANNELS_MAX 64
+#define PM_IMAGE_CHANNELS_MAX 96
 #define PM_IMAGE_NAME_ROOM 32 // bytes, with the final zero
 
 /// Channels are named as in the EXR file ("R", "caustic.R", "depth.Z"). Each is width * height

@@ -3,6 +3,9 @@
 #ifndef PM_LAYER_H
 #define PM_LAYER_H
 
+#include <stdbool.h>
+#include <stdint.h>
+
 typedef enum {
     PM_LAYER_EMISSION, // no event
     PM_LAYER_SPECULAR, // first eye event specular
@@ -12,6 +15,42 @@ typedef enum {
     PM_LAYER_INDIRECT, // any other
     PM_LAYER_COUNT,
 } pm_layer;
+
+/// The surface events of a path, read from the eye. Zero-initialised: none.
+typedef struct {
+    uint32_t count;
+    uint32_t specular;   // S events in a row at its far end
+    bool first_specular; // the event next to the eye is S
+    bool later_diffuse;  // one beyond it is D
+} pm_layer_events;
+
+/// The same path with one more event at its far end.
+static inline pm_layer_events pm_layer_event(pm_layer_events events, bool specular)
+{
+    if (events.count == 0) {
+        events.first_specular = specular;
+    } else if (!specular) {
+        events.later_diffuse = true;
+    }
+    events.count++;
+    events.specular = specular ? events.specular + 1 : 0;
+    return events;
+}
+
+/// Where light belongs that comes along a path with these events.
+static inline pm_layer pm_layer_of(pm_layer_events events)
+{
+    if (events.count == 0) {
+        return PM_LAYER_EMISSION;
+    }
+    if (events.first_specular) {
+        return PM_LAYER_SPECULAR;
+    }
+    if (events.count == 1) {
+        return PM_LAYER_DIRECT;
+    }
+    return events.later_diffuse ? PM_LAYER_INDIRECT : PM_LAYER_CAUSTIC;
+}
 
 /// The layer's name, as options and channels ("caustic.R") spell it.
 static inline const char *pm_layer_name(pm_layer layer)

@@ -6,47 +6,86 @@
 
 static const char *const channel[3] = {"R", "G", "B"};
 static const char *const axis[3] = {"normal.X", "normal.Y", "normal.Z"};
+static const char *const half_prefix[2] = {"half1.", "half2."};
 
-enum { NAME_ROOM = 32, LAYER_CHANNELS = 3 * PM_LAYER_COUNT };
+/// Names of channels, before there is an image.
+typedef struct {
+    char text[PM_IMAGE_CHANNELS_MAX][PM_IMAGE_NAME_ROOM];
+    const char *name[PM_IMAGE_CHANNELS_MAX];
+    int count;
+} pm_names;
 
-static void layer_channel(pm_layer layer, int c, char name[NAME_ROOM])
+static void add_name(pm_names *names, const char *prefix, const char *layer, const char *name)
 {
-    snprintf(name, NAME_ROOM, "%s.%s", pm_layer_name(layer), channel[c]);
+    char *text = names->text[names->count];
+    snprintf(text, PM_IMAGE_NAME_ROOM, "%s%s%s%s", prefix, layer, layer[0] == '\0' ? "" : ".",
+             name);
+    names->name[names->count++] = text;
+}
+
+static void add_light(pm_names *names, const char *prefix)
+{
+    for (int c = 0; c < 3; c++) {
+        add_name(names, prefix, "", channel[c]);
+    }
+    for (pm_layer layer = 0; layer < PM_LAYER_COUNT; layer++) {
+        for (int c = 0; c < 3; c++) {
+            add_name(names, prefix, pm_layer_name(layer), channel[c]);
+        }
+    }
+}
+
+static void add_surface(pm_names *names)
+{
+    add_name(names, "", "", "depth.Z");
+    for (int c = 0; c < 3; c++) {
+        add_name(names, "", "", axis[c]);
+    }
 }
 
 pm_status pm_picture_make(int width, int height, pm_image *image)
 {
-    char layers[LAYER_CHANNELS][NAME_ROOM];
-    const char *names[3 + LAYER_CHANNELS + 7];
-    int count = 0;
+    pm_names names = {.count = 0};
+    add_light(&names, "");
+    add_surface(&names);
+    add_name(&names, "", "", "gather.radius");
+    add_name(&names, "", "", "gather.count");
+    add_name(&names, "", "", "mask.emitter");
+    return pm_image_make(width, height, names.name, names.count, image);
+}
+
+pm_status pm_picture_make_halved(int width, int height, pm_image *image)
+{
+    pm_names names = {.count = 0};
+    add_light(&names, "");
+    add_surface(&names);
+    add_name(&names, "", "", "mask.emitter");
+    for (int half = 0; half < 2; half++) {
+        add_light(&names, half_prefix[half]);
+    }
+    return pm_image_make(width, height, names.name, names.count, image);
+}
+
+static void find_light(const pm_image *image, const char *prefix, pm_picture *picture)
+{
     for (int c = 0; c < 3; c++) {
-        names[count++] = channel[c];
+        pm_names names = {.count = 0};
+        add_name(&names, prefix, "", channel[c]);
+        picture->total[c] = pm_image_plane(image, names.name[0]);
+        for (pm_layer layer = 0; layer < PM_LAYER_COUNT; layer++) {
+            names.count = 0;
+            add_name(&names, prefix, pm_layer_name(layer), channel[c]);
+            picture->layer[layer][c] = pm_image_plane(image, names.name[0]);
+        }
     }
-    for (int i = 0; i < LAYER_CHANNELS; i++) {
-        layer_channel((pm_layer)(i / 3), i % 3, layers[i]);
-        names[count++] = layers[i];
-    }
-    names[count++] = "depth.Z";
-    for (int c = 0; c < 3; c++) {
-        names[count++] = axis[c];
-    }
-    names[count++] = "gather.radius";
-    names[count++] = "gather.count";
-    names[count++] = "mask.emitter";
-    return pm_image_make(width, height, names, count, image);
 }
 
 pm_picture pm_picture_planes(const pm_image *image)
 {
-    pm_picture picture;
+    pm_picture picture = {0};
+    find_light(image, "", &picture);
     for (int c = 0; c < 3; c++) {
-        picture.total[c] = pm_image_plane(image, channel[c]);
         picture.normal[c] = pm_image_plane(image, axis[c]);
-        for (pm_layer layer = 0; layer < PM_LAYER_COUNT; layer++) {
-            char name[NAME_ROOM];
-            layer_channel(layer, c, name);
-            picture.layer[layer][c] = pm_image_plane(image, name);
-        }
     }
     picture.depth = pm_image_plane(image, "depth.Z");
     picture.radius = pm_image_plane(image, "gather.radius");
@@ -55,22 +94,61 @@ pm_picture pm_picture_planes(const pm_image *image)
     return picture;
 }
 
-void pm_picture_set(const pm_picture *picture, size_t index, const pm_pixel *pixel)
+pm_picture pm_picture_half(const pm_image *image, int half)
+{
+    pm_picture picture = {0};
+    find_light(image, half_prefix[half], &picture);
+    return picture;
+}
+
+static void set(float *plane, size_t index, double value)
+{
+    if (plane != NULL) {
+        plane[index] = (float)value;
+    }
+}
+
+static void set_total(const pm_picture *picture, size_t index)
 {
     for (int c = 0; c < 3; c++) {
         double sum = 0.0;
         for (pm_layer layer = 0; layer < PM_LAYER_COUNT; layer++) {
-            float value = (float)pixel->layer[layer].c[c];
-            picture->layer[layer][c][index] = value;
-            sum += (double)value;
+            sum += (double)picture->layer[layer][c][index];
         }
         picture->total[c][index] = (float)sum;
     }
-    picture->depth[index] = (float)pixel->depth;
-    picture->normal[0][index] = (float)pixel->normal.x;
-    picture->normal[1][index] = (float)pixel->normal.y;
-    picture->normal[2][index] = (float)pixel->normal.z;
-    picture->radius[index] = (float)pixel->radius;
-    picture->count[index] = (float)pixel->count;
-    picture->emitter[index] = pixel->emitter ? 1.0f : 0.0f;
+}
+
+void pm_picture_set(const pm_picture *picture, size_t index, const pm_pixel *pixel)
+{
+    const double normal[3] = {pixel->normal.x, pixel->normal.y, pixel->normal.z};
+    for (int c = 0; c < 3; c++) {
+        for (pm_layer layer = 0; layer < PM_LAYER_COUNT; layer++) {
+            set(picture->layer[layer][c], index, pixel->layer[layer].c[c]);
+        }
+        set(picture->normal[c], index, normal[c]);
+    }
+    set_total(picture, index);
+    set(picture->depth, index, pixel->depth);
+    set(picture->radius, index, pixel->radius);
+    set(picture->count, index, pixel->count);
+    set(picture->emitter, index, pixel->emitter ? 1.0 : 0.0);
+}
+
+void pm_picture_join(const pm_picture *whole, const pm_picture half[2], size_t pixels)
+{
+    for (pm_layer layer = 0; layer < PM_LAYER_COUNT; layer++) {
+        for (int c = 0; c < 3; c++) {
+            const float *one = half[0].layer[layer][c];
+            const float *two = half[1].layer[layer][c];
+            for (size_t i = 0; i < pixels; i++) {
+                set(whole->layer[layer][c], i, 0.5 * ((double)one[i] + (double)two[i]));
+            }
+        }
+    }
+    for (size_t i = 0; i < pixels; i++) {
+        set_total(whole, i);
+        set_total(&half[0], i);
+        set_total(&half[1], i);
+    }
 }

@@ -13,22 +13,28 @@
 #include "intersect.h"
 #include "trace.h"
 
+#include <stdbool.h>
+
 /// From pm_reference_defaults(), then changed.
 typedef struct {
     uint32_t seed;
     uint32_t spp;         // samples of a pixel, even: half of them make each half
     uint32_t max_bounces; // 0: the rule of pm_caps_of()
     pm_roulette_rule roulette;
-    uint64_t light_paths; // traced from lights of no extent to the camera; 0: none
+    uint64_t light_paths; // traced from lights without extent to the camera; 0: none
 } pm_reference_settings;
 
 pm_reference_settings pm_reference_defaults(void); // 256 samples, no light paths
 
 typedef struct {
     double seconds;
-    double rel_error; // estimated rel_rmse of the whole picture, masked, from its two halves
+    double rel_error; // estimated rel_rmse of the whole picture, masked, from its two halves;
+                      // NaN when a pixel is not finite
     uint64_t cut;     // paths ended by a cap
-    char blind[256];  // one sentence: what the picture cannot show; "" when it shows everything
+    uint64_t light_paths; // traced: 0 when eye paths find everything
+    uint64_t too_bright;  // pixels that a float cannot hold
+    bool black;
+    char blind[256]; // one sentence: what the picture cannot show; "" when it shows everything
 } pm_reference_report;
 
 /// The channels of pm_render_image() without gather.*, and half1.*, half2.*: the picture from
@@ -36,7 +42,8 @@ typedef struct {
 ///
 /// @param image   [out] untouched unless PM_OK; free with pm_image_free()
 /// @param report  [out]
-/// @return PM_EINPUT when spp is odd or 0; PM_ENOMEM; PM_ESTOPPED on SIGINT
+/// @return PM_EINPUT when spp is odd or 0, or with fewer than two light paths for each light
+///         that needs them; PM_ENOMEM; PM_ESTOPPED on SIGINT
 pm_status pm_reference_image(const pm_intersector *world, const pm_reference_settings *settings,
                              pm_image *image, pm_reference_report *report);
 

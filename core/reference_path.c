@@ -1,0 +1,204 @@
+// fly, see what shines, draw points on lights, turn; until the roulette ends it.
+#include "reference_path.h"
+
+#include "direct.h"
+#include "light.h"
+
+/// The path so far.
+typedef struct {
+    pm_ray ray;
+    pm_spectrum weight; // factor on radiance found at its end
+    pm_layer_events events;
+    pm_vec3 from; // the last event, where lights were drawn
+    double pdf;   // [1/sr] of the ray, where drawing lights could have found it; else 0
+} pm_eye_path;
+
+/// A surface that the path meets.
+typedef struct {
+    pm_hit hit;
+    pm_lobes lobes;
+} pm_meeting;
+
+static void add(pm_reference_sum *sum, pm_layer_events events, pm_spectrum weight,
+                pm_spectrum radiance)
+{
+    pm_spectrum *layer = &sum->layer[pm_layer_of(events)];
+    *layer = pm_spectrum_add(*layer, pm_spectrum_mul(weight, radiance));
+}
+
+/// Light of the surface itself.
+static void see(const pm_scene *scene, const pm_eye_path *path, const pm_meeting *at,
+                pm_reference_sum *sum)
+{
+    bool front = pm_vec_dot(at->lobes.wi, at->hit.normal) > 0.0;
+    if (scene->shapes[at->hit.shape].light == PM_NONE || !front) {
+        return;
+    }
+    sum->emitter = sum->emitter || path->events.specular == path->events.count;
+    pm_spectrum radiance = pm_light_emitted(scene, &at->hit, at->lobes.wi);
+    if (path->pdf > 0.0) {
+        double drawn = pm_light_pdf(scene, &at->hit, path->from, path->ray.direction);
+        radiance = pm_spectrum_scale(radiance, pm_direct_weight(path->pdf, drawn));
+    }
+    add(sum, path->events, path->weight, radiance);
+}
+
+/// The next surface that is an event. A null lamp shines and lets the path pass, and what lies
+/// behind is seen from the last event still.
+static bool meet(const pm_reference_eye *eye, pm_eye_path *path, pm_meeting *at,
+                 pm_reference_sum *sum)
+{
+    const pm_scene *scene = eye->world->scene;
+    while (pm_closest(eye->world, &path->ray, &at->hit)) {
+        pm_vec3 direction = path->ray.direction;
+        double wavelength = path->ray.wavelength;
+        pm_material_lobes(scene, &at->hit, pm_vec_negate(direction), wavelength, &at->lobes);
+        see(scene, path, at, sum);
+        if (!at->lobes.passes) {
+            return true;
+        }
+        path->ray = pm_hit_ray(&at->hit, direction, wavelength, at->lobes.medium_beyond);
+    }
+    return false;
+}
+
+static void note_first(const pm_eye_path *path, const pm_meeting *at, pm_reference_sum *sum)
+{
+    if (path->events.count == 0) {
+        sum->hits++;
+        sum->depth += pm_vec_length(pm_vec_sub(at->hit.position, path->from));
+        sum->normal = pm_vec_add(sum->normal, at->lobes.normal);
+    }
+}
+
+static bool shadowed(const pm_reference_eye *eye, const pm_meeting *at,
+                     const pm_light_sample *drawn)
+{
+    pm_ray ray = pm_hit_ray(&at->hit, drawn->direction, 0.0, at->lobes.medium_here);
+    if (!drawn->endless) {
+        pm_vec3 way = pm_vec_sub(drawn->target, ray.origin);
+        ray.t_max = pm_vec_length(way);
+        if (ray.t_max == 0.0) {
+            return false;
+        }
+        ray.direction = pm_vec_scale(way, 1.0 / ray.t_max);
+    }
+    return pm_blocked(eye->world, &ray);
+}
+
+/// f |cos| towards a drawn point, apart for D lobes and S lobes, each lobe by its own weight:
+/// the same path could have gone there by that lobe.
+static void respond(const pm_lobes *lobes, const pm_light_sample *drawn,
+                    pm_spectrum response[2])
+{
+    double cosine = fabs(pm_vec_dot(drawn->direction, lobes->normal));
+    response[0] = response[1] = pm_gray(0.0);
+    for (int i = 0; i < lobes->count; i++) {
+        pm_spectrum value = pm_material_value(lobes, i, drawn->direction);
+        double share = cosine;
+        if (drawn->pdf > 0.0) {
+            double found = pm_material_pdf(lobes, i, drawn->direction);
+            share *= pm_direct_weight(drawn->pdf, found);
+        }
+        pm_spectrum *into = &response[lobes->lobe[i].specular];
+        *into = pm_spectrum_add(*into, pm_spectrum_scale(value, share));
+    }
+}
+
+static void ask_light(const pm_reference_eye *eye, const pm_light *light,
+                      const pm_eye_path *path, const pm_meeting *at, const double u[2],
+                      pm_reference_sum *sum)
+{
+    pm_light_sample drawn;
+    if (!pm_light_sample_from(eye->world->scene, light, at->hit.position, u, &drawn)) {
+        return;
+    }
+    pm_spectrum response[2];
+    respond(&at->lobes, &drawn, response);
+    bool dark = pm_spectrum_is_black(response[0]) && pm_spectrum_is_black(response[1]);
+    if (dark || shadowed(eye, at, &drawn)) {
+        return;
+    }
+    for (int specular = 0; specular < 2; specular++) {
+        pm_spectrum radiance = pm_spectrum_mul(response[specular], drawn.radiance);
+        add(sum, pm_layer_event(path->events, specular), path->weight, radiance);
+    }
+}
+
+/// Whether some lobe has a value towards directions that it did not choose itself.
+static bool spreads(const pm_lobes *lobes)
+{
+    for (int i = 0; i < lobes->count; i++) {
+        pm_lobe_type type = lobes->lobe[i].type;
+        if (type == PM_LOBE_DIFFUSE || type == PM_LOBE_COATED || type == PM_LOBE_GLOSSY) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void ask_lights(const pm_reference_eye *eye, const pm_eye_path *path,
+                       const pm_meeting *at, pm_rng *rng, pm_reference_sum *sum)
+{
+    const pm_scene *scene = eye->world->scene;
+    for (int i = 0; i < scene->light_count && spreads(&at->lobes); i++) {
+        double u[2];
+        u[0] = pm_rng_draw(rng);
+        u[1] = pm_rng_draw(rng);
+        ask_light(eye, &scene->lights[i], path, at, u, sum);
+    }
+}
+
+/// Goes on by one lobe. Writes whether it does.
+static pm_status turn(const pm_reference_eye *eye, pm_eye_path *path, const pm_meeting *at,
+                      pm_rng *rng, bool *goes_on)
+{
+    pm_roulette outcome;
+    PM_TRY(pm_trace_roulette(path->weight, at->lobes.lobe, at->lobes.count, eye->rule, rng,
+                             &outcome));
+    *goes_on = outcome.lobe != PM_NONE;
+    if (!*goes_on) {
+        return PM_OK;
+    }
+    pm_scatter scatter;
+    pm_material_sample(&at->lobes, outcome.lobe, rng, &scatter);
+    path->weight =
+        pm_spectrum_scale(pm_spectrum_mul(outcome.power, scatter.weight), scatter.radiance);
+    path->events = pm_layer_event(path->events, at->lobes.lobe[outcome.lobe].specular);
+    path->ray = pm_hit_ray(&at->hit, scatter.wo, path->ray.wavelength, scatter.medium);
+    path->from = at->hit.position;
+    path->pdf = scatter.pdf;
+    *goes_on = !pm_spectrum_is_black(path->weight);
+    return PM_OK;
+}
+
+static bool capped(const pm_reference_eye *eye, const pm_eye_path *path)
+{
+    return path->events.count >= eye->caps.bounces ||
+           path->events.specular >= eye->caps.specular;
+}
+
+pm_status pm_reference_path(const pm_reference_eye *eye, const pm_ray *ray, uint64_t index,
+                            pm_reference_sum *sum)
+{
+    pm_eye_path path = {.ray = *ray, .weight = pm_gray(1.0), .from = ray->origin};
+    pm_meeting at;
+    for (bool goes_on = true; goes_on;) {
+        if (!meet(eye, &path, &at, sum)) {
+            add(sum, path.events, path.weight, eye->sky);
+            return PM_OK;
+        }
+        note_first(&path, &at, sum);
+        if (at.lobes.count == 0) {
+            return PM_OK;
+        }
+        if (capped(eye, &path)) {
+            sum->cut++;
+            return PM_OK;
+        }
+        pm_rng rng = pm_rng_at(&eye->source, index, path.events.count + 1);
+        ask_lights(eye, &path, &at, &rng, sum);
+        PM_TRY(turn(eye, &path, &at, &rng, &goes_on));
+    }
+    return PM_OK;
+}
