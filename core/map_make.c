@@ -7,6 +7,17 @@
 
 #include <stddef.h>
 
+pm_status pm_map_aim(const pm_options *options, const pm_scene *scene, pm_map_kind kind,
+                     pm_projections *out)
+{
+    if (options->everywhere) {
+        *out = (pm_projections){.sent = 1.0,
+                                .why = "--projection off: photons are sent everywhere"};
+        return PM_OK;
+    }
+    return pm_projection_make(scene, kind, out);
+}
+
 pm_pass_settings pm_map_settings(const pm_options *options, pm_map_kind kind, uint32_t pass)
 {
     return (pm_pass_settings){
@@ -23,9 +34,14 @@ pm_status pm_map_make(const pm_options *options, const pm_intersector *world, pm
                       uint32_t pass, pm_photon_map *map)
 {
     pm_pass_settings settings = pm_map_settings(options, kind, pass);
+    pm_projections aim;
+    PM_TRY(pm_map_aim(options, world->scene, kind, &aim));
+    settings.projections = pm_projection_of(&aim);
     pm_photon_map made;
-    PM_TRY(pm_photon_pass(world, kind, &settings, &made, NULL));
-    pm_status status = pm_balance_build(&made);
+    pm_status status = pm_photon_pass(world, kind, &settings, &made, NULL);
+    pm_projection_free(&aim);
+    PM_TRY(status);
+    status = pm_balance_build(&made);
     if (status != PM_OK) {
         pm_photon_map_free(&made);
         return status;

@@ -265,7 +265,7 @@ static pm_status outcome(const pm_pass *pass)
     return PM_OK;
 }
 
-/// Whether no light got a photon: none has any power.
+/// Whether no light got a photon: none sends any power.
 static bool is_dark(const pm_scene *scene, const uint64_t *share)
 {
     uint64_t sum = 0;
@@ -377,7 +377,7 @@ pm_status pm_photon_replay(const pm_intersector *world, pm_map_kind kind,
     }
     if (status == PM_OK && is_dark(world->scene, share)) {
         status =
-            pm_status_fail(PM_EINPUT, "%s: no light has any power: there is no photon %llu",
+            pm_status_fail(PM_EINPUT, "%s: no light sends any power: there is no photon %llu",
                            world->scene->path, (unsigned long long)photon);
     }
     if (status == PM_OK) {

@@ -17,7 +17,7 @@ json_t *pm_report_add(json_t *object, const char *key, json_t *value)
     return object;
 }
 
-static json_t *append(json_t *array, json_t *value)
+json_t *pm_report_append(json_t *array, json_t *value)
 {
     if (array == NULL || value == NULL || json_array_append(array, value) != 0) {
         json_decref(value);
@@ -67,11 +67,22 @@ json_t *pm_report_plan(const pm_plan *plan)
     json_t *object = json_object();
     for (pm_plan_part part = 0; part < PM_PLAN_COUNT; part++) {
         const pm_plan_item *item = &plan->item[part];
-        object =
-            pm_report_add(object, pm_plan_name(part),
-                          json_pack("{s:b,s:s}", "needed", item->needed, "why", item->why));
+        json_t *entry =
+            json_pack("{s:b,s:s,s:s,s:s?}", "needed", item->needed, "why", item->why, "paths",
+                      pm_plan_paths(part), "missing", item->missing ? item->left_out : NULL);
+        object = pm_report_add(object, pm_plan_name(part), entry);
     }
     return object;
+}
+
+json_t *pm_report_projection(const pm_projections *projections, uint64_t emitted)
+{
+    json_int_t saved = (json_int_t)pm_projection_saved(projections, emitted);
+    json_t *object = json_pack("{s:I,s:I}", "cells", (json_int_t)projections->cells, "active",
+                               (json_int_t)projections->active);
+    object = pm_report_add(object, "dark", pm_report_spectrum(projections->dark));
+    object = pm_report_add(object, "saved", json_integer(saved));
+    return pm_report_add(object, "why", json_string(projections->why));
 }
 
 json_t *pm_report_lights(const pm_scene *scene, const uint64_t *share)
@@ -85,7 +96,7 @@ json_t *pm_report_lights(const pm_scene *scene, const uint64_t *share)
         if (share != NULL) {
             entry = pm_report_add(entry, "photons", json_integer((json_int_t)share[i]));
         }
-        array = append(array, entry);
+        array = pm_report_append(array, entry);
     }
     return array;
 }
@@ -118,7 +129,7 @@ json_t *pm_report_notes(const pm_scene *scene)
 {
     json_t *array = json_array();
     for (int i = 0; i < scene->note_count; i++) {
-        array = append(array, json_string(scene->notes[i]));
+        array = pm_report_append(array, json_string(scene->notes[i]));
     }
     return array;
 }

@@ -9,6 +9,7 @@
 #include "options.h"
 #include "photon_pass.h"
 #include "plan.h"
+#include "projection.h"
 
 #include <jansson.h>
 
@@ -20,8 +21,13 @@ json_t *pm_report_vector(pm_vec3 vector);
 /// W.
 json_t *pm_report_flux(const pm_audit *audit);
 
-/// {"direct": {"needed": .., "why": ..}, ..}
+/// {"direct": {"needed": .., "why": .., "paths": .., "missing": ..}, ..}; `missing` is null, or
+/// says what is left out by choice.
 json_t *pm_report_plan(const pm_plan *plan);
+
+/// {cells, active, dark[3] in W, saved, why} of a pass that emits `emitted` photons: how many
+/// more it would take without.
+json_t *pm_report_projection(const pm_projections *projections, uint64_t emitted);
 
 /// [{id, type, flux[3], photons}, ..]; `share` may be NULL.
 json_t *pm_report_lights(const pm_scene *scene, const uint64_t *share);
@@ -32,12 +38,19 @@ json_t *pm_report_by_shape(const pm_scene *scene, const pm_audit *audit);
 /// {emitted, stored, power[3], refused, clamped, vanished, bytes} of one map.
 json_t *pm_report_map(const pm_photon_map *map);
 
+/// {cells, active, dark[3] in W, saved, why}: how a map's photons were aimed, and how many that
+/// saved of those `emitted`.
+json_t *pm_report_projection(const pm_projections *projections, uint64_t emitted);
+
 /// Lines about what the scene file says that is not used.
 json_t *pm_report_notes(const pm_scene *scene);
 
 /// Adds `value` under `key` and gives `object` back; NULL when either is or memory ran out.
 /// Both references are taken.
 json_t *pm_report_add(json_t *object, const char *key, json_t *value);
+
+/// Appends `value` and gives `array` back; as pm_report_add().
+json_t *pm_report_append(json_t *array, json_t *value);
 
 /// Writes the object where the options want it: --json to standard output, --report to a file.
 /// Takes the reference. Doubles have 17 digits, keys the order in which they were added.

@@ -2,6 +2,7 @@
 #include "emit.h"
 #include "file.h"
 #include "interrupt.h"
+#include "map_make.h"
 #include "program.h"
 #include "report.h"
 #include "world.h"
@@ -17,8 +18,9 @@ static const pm_options_program program = {
     .positional = "SCENE",
     .positional_least = 1,
     .positional_most = 1,
-    .options = "n dump report",
-    .notes = "--dump writes the rays as ox,oy,oz,dx,dy,dz,r,g,b,light; r,g,b is the power [W].",
+    .options = "n projection dump report",
+    .notes = "Photons are sent where the global map wants them, or everywhere.\n"
+             "--dump writes the rays as ox,oy,oz,dx,dy,dz,r,g,b,light; r,g,b is the power [W].",
 };
 
 /// What was emitted.
@@ -27,6 +29,7 @@ typedef struct {
     pm_world world;
     uint64_t count;
     uint64_t *share;
+    pm_projections aim;
     pm_spectrum power; // [W]
     pm_file dump;
 } pm_job;
@@ -41,7 +44,7 @@ static void write_ray(const pm_job *job, const pm_start *start)
             start->light);
 }
 
-/// The photons that the lights send: none where no light has any power.
+/// The photons that the lights send: none where no light sends any power.
 static uint64_t shared_out(const pm_job *job)
 {
     uint64_t sum = 0;
@@ -58,6 +61,7 @@ static pm_status emit_all(pm_job *job)
         .source = {job->options->seed, PM_STREAM_GLOBAL, 0},
         .count = job->count,
         .share = job->share,
+        .projections = pm_projection_of(&job->aim),
     };
     pm_start starts[BATCH];
     uint64_t count = shared_out(job);
@@ -86,13 +90,18 @@ static pm_status report(const pm_job *job)
                pm_spectrum_mean(light->flux));
     }
     if (shared_out(job) == 0 && !job->options->json) {
-        printf("%s: no light has any power: nothing is emitted\n", scene->path);
+        printf("%s: no light sends any power: nothing is emitted\n", scene->path);
+    }
+    if (job->aim.cells > 0 && !job->options->json) {
+        printf("%s: %llu of %llu cells are lit, which saves %llu photons\n", job->aim.why,
+               (unsigned long long)job->aim.active, (unsigned long long)job->aim.cells,
+               (unsigned long long)pm_projection_saved(&job->aim, shared_out(job)));
     }
     json_t *object =
         pm_report_add(json_object(), "lights", pm_report_lights(scene, job->share));
     object = pm_report_add(object, "power_sum", pm_report_spectrum(job->power));
     object =
-        pm_report_add(object, "projection", json_pack("{s:i,s:i}", "cells", 0, "active", 0));
+        pm_report_add(object, "projection", pm_report_projection(&job->aim, shared_out(job)));
     return pm_report_end(job->options, object);
 }
 
@@ -105,7 +114,9 @@ static pm_status run(pm_job *job)
     if (job->share == NULL) {
         return PM_FAIL(PM_ENOMEM, "no memory for the lights");
     }
-    PM_TRY(pm_emit_share(&job->world.scene, NULL, job->count, job->share));
+    PM_TRY(pm_map_aim(options, &job->world.scene, PM_MAP_GLOBAL, &job->aim));
+    PM_TRY(
+        pm_emit_share(&job->world.scene, pm_projection_of(&job->aim), job->count, job->share));
     if (options->dump != NULL) {
         PM_TRY(pm_file_begin(options->dump, &job->dump));
         fputs("ox,oy,oz,dx,dy,dz,r,g,b,light\n", job->dump.stream);
@@ -128,6 +139,7 @@ int main(int argc, char **argv)
     pm_status status = run(&job);
     pm_file_abandon(&job.dump);
     free(job.share);
+    pm_projection_free(&job.aim);
     pm_world_close(&job.world);
     return pm_program_end(status);
 }

@@ -1,4 +1,5 @@
 // tracing: photons travel until they are absorbed, escape or are cut, and the books are kept.
+#include "map_make.h"
 #include "path_dump.h"
 #include "photon_map.h"
 #include "photon_pass.h"
@@ -14,7 +15,7 @@ static const pm_options_program program = {
     .positional = "SCENE",
     .positional_least = 1,
     .positional_most = 1,
-    .options = "n photon roulette max-bounces dump report",
+    .options = "n projection photon roulette max-bounces dump report",
     .notes =
         "--dump writes every vertex of every path as photon,step,event,x,y,z,r,g,b; events\n"
         "are L light, S specular, D diffuse, A absorbed, E escaped, C cut; r,g,b is the\n"
@@ -24,6 +25,7 @@ static const pm_options_program program = {
 typedef struct {
     const pm_options *options;
     pm_world world;
+    pm_projections aim;
     pm_pass_settings settings;
     pm_photon_map map;
     pm_pass_report pass;
@@ -128,11 +130,9 @@ static void print_books(const pm_job *job)
     const struct {
         const char *name;
         const pm_spectrum *power;
-    } rows[] = {{"emitted", &audit->emitted},
-                {"absorbed", &audit->absorbed},
-                {"escaped", &audit->escaped},
-                {"lost", &audit->lost},
-                {"roulette", &audit->roulette}};
+    } rows[] = {{"emitted", &audit->emitted},   {"absorbed", &audit->absorbed},
+                {"escaped", &audit->escaped},   {"lost", &audit->lost},
+                {"roulette", &audit->roulette}, {"never sent", &job->aim.dark}};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         const double *c = rows[i].power->c;
         printf("%-12s %14.6g %14.6g %14.6g\n", rows[i].name, c[0], c[1], c[2]);
@@ -153,6 +153,8 @@ static pm_status report(const pm_job *job)
     object = pm_report_add(object, "flux", pm_report_flux(&pass->audit));
     object =
         pm_report_add(object, "by_shape", pm_report_by_shape(&job->world.scene, &pass->audit));
+    object =
+        pm_report_add(object, "projection", pm_report_projection(&job->aim, pass->emitted));
     object = pm_report_add(object, "notes", pm_report_notes(&job->world.scene));
     PM_TRY(pm_report_end(job->options, object));
     return pm_audit_check(&pass->audit);
@@ -179,12 +181,9 @@ static pm_status run(pm_job *job)
 {
     const pm_options *options = job->options;
     PM_TRY(pm_world_open(options, false, &job->world));
-    job->settings = (pm_pass_settings){
-        .seed = options->seed,
-        .count = options->photons[PM_MAP_GLOBAL],
-        .rule = options->roulette,
-        .max_bounces = options->max_bounces,
-    };
+    PM_TRY(pm_map_aim(options, &job->world.scene, PM_MAP_GLOBAL, &job->aim));
+    job->settings = pm_map_settings(options, PM_MAP_GLOBAL, 0);
+    job->settings.projections = pm_projection_of(&job->aim);
     return options->has_photon ? replay(job) : trace_all(job);
 }
 
@@ -199,6 +198,7 @@ int main(int argc, char **argv)
     pm_status status = run(&job);
     pm_file_abandon(&job.dump.file);
     pm_photon_map_free(&job.map);
+    pm_projection_free(&job.aim);
     pm_pass_report_free(&job.pass);
     pm_world_close(&job.world);
     return pm_program_end(status);

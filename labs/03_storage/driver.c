@@ -22,9 +22,9 @@ static const pm_options_program program = {
     .positional = "SCENE",
     .positional_least = 1,
     .positional_most = 1,
-    .options =
-        "n global-photons caustic-photons roulette max-bounces packing o dump check-file "
-        "report",
+    .options = "n global-photons caustic-photons projection roulette max-bounces packing o "
+               "dump check-file "
+               "report",
     .notes = "-o FILE.ply writes the global map; a caustic map, where the scene has caustics,\n"
              "goes beside it as FILE.caustic.ply. Their x y z are the scene's less the centre\n"
              "that a comment in their header names; --dump writes the scene's own.\n"
@@ -44,6 +44,7 @@ typedef struct {
     const pm_options *options;
     pm_world world;
     pm_photon_map map[PM_MAP_COUNT];
+    pm_projections aim[PM_MAP_COUNT];
     bool has[PM_MAP_COUNT];
     pm_photon_dump dump;
     losses packing;
@@ -94,6 +95,8 @@ static pm_status make_map(pm_job *job, pm_map_kind kind)
     const pm_options *options = job->options;
     pm_pass_settings settings = pm_map_settings(options, kind, 0);
     settings.unpacked = true; // to compare with
+    PM_TRY(pm_map_aim(options, &job->world.scene, kind, &job->aim[kind]));
+    settings.projections = pm_projection_of(&job->aim[kind]);
     if (options->dump != NULL) {
         pm_photon_dump_map(&job->dump, kind, options->unpacked, settings.count);
         settings.tap =
@@ -218,7 +221,13 @@ static json_t *maps_json(const pm_job *job)
 {
     json_t *maps = json_object();
     for (pm_map_kind kind = 0; kind < PM_MAP_COUNT; kind++) {
-        maps = pm_report_add(maps, pm_map_name(kind), pm_report_map(&job->map[kind]));
+        const pm_photon_map *map = &job->map[kind];
+        json_t *entry = pm_report_map(map);
+        if (job->has[kind]) {
+            entry = pm_report_add(entry, "projection",
+                                  pm_report_projection(&job->aim[kind], map->emitted));
+        }
+        maps = pm_report_add(maps, pm_map_name(kind), entry);
     }
     return maps;
 }
@@ -295,6 +304,7 @@ int main(int argc, char **argv)
     pm_photon_dump_free(&job.dump);
     for (pm_map_kind kind = 0; kind < PM_MAP_COUNT; kind++) {
         pm_photon_map_free(&job.map[kind]);
+        pm_projection_free(&job.aim[kind]);
     }
     pm_world_close(&job.world);
     return pm_program_end(status);

@@ -23,7 +23,7 @@ static const pm_options_program program = {
     .positional = "SCENE",
     .positional_least = 1,
     .positional_most = 1,
-    .options = "n k r roulette max-bounces packing o report",
+    .options = "n projection k r roulette max-bounces packing o report",
     .notes =
         "-o writes the balanced map. Searches are around photons of the map, without side\n"
         "test. height counts the links from the root to the deepest photon; unbalanced is\n"
@@ -282,12 +282,23 @@ static pm_status write_map(const pm_job *job)
     return pm_photon_file_write(job->options->output, &job->map, &info, NULL);
 }
 
+static pm_status trace(pm_job *job)
+{
+    pm_projections aim;
+    PM_TRY(pm_map_aim(job->options, &job->world.scene, PM_MAP_GLOBAL, &aim));
+    pm_pass_settings settings = pm_map_settings(job->options, PM_MAP_GLOBAL, 0);
+    settings.projections = pm_projection_of(&aim);
+    pm_status status =
+        pm_photon_pass(&job->world.rays, PM_MAP_GLOBAL, &settings, &job->map, NULL);
+    pm_projection_free(&aim);
+    return status;
+}
+
 static pm_status run(pm_job *job)
 {
     const pm_options *options = job->options;
     PM_TRY(pm_world_open(options, false, &job->world));
-    pm_pass_settings settings = pm_map_settings(options, PM_MAP_GLOBAL, 0);
-    PM_TRY(pm_photon_pass(&job->world.rays, PM_MAP_GLOBAL, &settings, &job->map, NULL));
+    PM_TRY(trace(job));
     if (job->map.count > 0) {
         PM_TRY(choose_queries(job));
         PM_TRY(compare_with_grown(job));

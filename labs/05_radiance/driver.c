@@ -19,8 +19,9 @@ static const pm_options_program program = {
     .positional = "SCENE",
     .positional_least = 1,
     .positional_most = 1,
-    .options = "n " PM_OPTIONS_ESTIMATE
-               " at normal points on grid runs dump roulette max-bounces packing report",
+    .options =
+        "n " PM_OPTIONS_ESTIMATE
+        " at normal points on grid runs dump projection roulette max-bounces packing report",
     .notes =
         "Give one of --at with --normal, --points, and --on with --grid. --dump writes the\n"
         "points as i,j,x,y,z,nx,ny,nz,r,g,b,radius,found, row by row; with --runs all\n"
