@@ -1,22 +1,57 @@
 // L = sum over lights of f * (what arrives without the surface) * cos / pdf, where nothing is
 // between.
+//
+// Points on lights are drawn for every lobe. A glossy lobe draws directions as well, as many as
+// there are points on a lamp, and shares each lamp with those by the balance heuristic; wide
+// lobes leave lamps to the points. The constant light is found by drawn directions alone: those
+// of glossy lobes, and one even spread for all wide ones.
 #include "direct.h"
 
 #include "lattice.h"
 #include "light.h"
+#include "shape.h"
 
-/// f * cos towards `direction`, 0 where the surface does not look.
-static pm_spectrum response(const pm_lobes *lobes, pm_vec3 direction)
+#include <stddef.h>
+
+/// Who is lit, and whether its D or its S lobes are asked about.
+typedef struct {
+    const pm_hit *hit;
+    const pm_lobes *lobes;
+    bool specular;
+} receiver;
+
+static bool draws_for_lamps(const pm_lobe *lobe)
 {
-    double cosine = pm_vec_dot(direction, lobes->normal);
-    return pm_spectrum_scale(pm_material_evaluate(lobes, direction), pm_most(0.0, cosine));
+    return lobe->type == PM_LOBE_GLOSSY;
+}
+
+// --- points drawn on lights -----------------------------------------------------------------
+
+/// f * cos towards a sample of a light, of each lobe the share that this sample has; 0 where
+/// the surface does not look.
+static pm_spectrum response(const receiver *to, const pm_light_sample *sample)
+{
+    pm_spectrum sum = pm_gray(0.0);
+    for (int i = 0; i < to->lobes->count; i++) {
+        const pm_lobe *lobe = &to->lobes->lobe[i];
+        if (lobe->specular != to->specular) {
+            continue;
+        }
+        pm_spectrum value = pm_material_value(to->lobes, i, sample->direction);
+        if (draws_for_lamps(lobe) && sample->pdf > 0.0) {
+            double other = pm_material_pdf(to->lobes, i, sample->direction);
+            value = pm_spectrum_scale(value, pm_direct_weight(sample->pdf, other));
+        }
+        sum = pm_spectrum_add(sum, value);
+    }
+    double cosine = pm_vec_dot(sample->direction, to->lobes->normal);
+    return pm_spectrum_scale(sum, pm_most(0.0, cosine));
 }
 
 /// Whether something stands between the receiver and the light.
-static bool shadowed(pm_direct_query *query, const pm_hit *hit, const pm_lobes *lobes,
-                     const pm_light_sample *sample)
+static bool shadowed(pm_direct_query *query, const receiver *to, const pm_light_sample *sample)
 {
-    pm_ray ray = pm_hit_ray(hit, sample->direction, 0.0, lobes->medium_here);
+    pm_ray ray = pm_hit_ray(to->hit, sample->direction, 0.0, to->lobes->medium_here);
     if (!sample->endless) {
         pm_vec3 way = pm_vec_sub(sample->target, ray.origin);
         ray.t_max = pm_vec_length(way);
@@ -29,42 +64,193 @@ static bool shadowed(pm_direct_query *query, const pm_hit *hit, const pm_lobes *
     return pm_blocked(query->world, &ray);
 }
 
-/// What one draw of one light brings.
-static pm_spectrum from_light(pm_direct_query *query, const pm_light *light, const double u[2],
-                              const pm_hit *hit, const pm_lobes *lobes)
+/// What the shadow photons say of one light, once they were asked.
+typedef struct {
+    bool asked;
+    pm_shadow_answer answer;
+} advice;
+
+/// Surfaces whose lobes are all S hold no shadow photons, so their S lobes do not ask.
+static pm_shadow_answer ask_photons(pm_direct_query *query, int light, const receiver *to,
+                                    advice *known)
 {
-    pm_light_sample sample;
-    if (!pm_light_sample_from(query->world->scene, light, hit->position, u, &sample)) {
-        return pm_gray(0.0);
+    if (query->shadows == NULL || to->specular) {
+        return PM_SHADOW_UNSURE;
     }
-    pm_spectrum f = response(lobes, sample.direction);
-    if (pm_spectrum_is_black(f) || shadowed(query, hit, lobes, &sample)) {
-        return pm_gray(0.0);
+    if (!known->asked) {
+        pm_estimate_point point = {to->hit->position, to->lobes->normal};
+        known->answer = pm_shadow_ask(query->shadows, light, &point, query->scratch);
+        known->asked = true;
     }
-    return pm_spectrum_mul(f, sample.radiance);
+    return known->answer;
 }
 
-pm_spectrum pm_direct(pm_direct_query *query, const pm_hit *hit, const pm_lobes *lobes)
+/// What one draw of one light brings.
+static pm_spectrum from_light(pm_direct_query *query, int light, const double u[2],
+                              const receiver *to, advice *known)
+{
+    const pm_scene *scene = query->world->scene;
+    pm_light_sample sample;
+    if (!pm_light_sample_from(scene, &scene->lights[light], to->hit->position, u, &sample)) {
+        return pm_gray(0.0);
+    }
+    pm_spectrum arriving = pm_spectrum_mul(response(to, &sample), sample.radiance);
+    if (pm_spectrum_is_black(arriving)) {
+        return arriving;
+    }
+    pm_shadow_answer answer = ask_photons(query, light, to, known);
+    query->spared += answer != PM_SHADOW_UNSURE;
+    bool dark = answer == PM_SHADOW_DARK ||
+                (answer == PM_SHADOW_UNSURE && shadowed(query, to, &sample));
+    return dark ? pm_gray(0.0) : arriving;
+}
+
+/// Point number `s` of the query's lattice.
+static void lattice_point(const pm_direct_query *query, uint32_t s, uint32_t samples,
+                          double u[2])
+{
+    pm_lattice_point(query->shift, query->first + s * query->step, samples * query->step, u);
+}
+
+static pm_spectrum from_lights(pm_direct_query *query, const receiver *to)
 {
     const pm_scene *scene = query->world->scene;
     pm_spectrum sum = pm_gray(0.0);
     for (int i = 0; i < scene->light_count; i++) {
         uint32_t samples = scene->lights[i].type == PM_LIGHT_AREA ? query->samples : 1;
+        advice known = {0};
         for (uint32_t s = 0; s < samples; s++) {
             double u[2];
-            uint32_t point = query->first + s * query->step;
-            pm_lattice_point(query->shift, point, samples * query->step, u);
-            pm_spectrum one = from_light(query, &scene->lights[i], u, hit, lobes);
+            lattice_point(query, s, samples, u);
+            pm_spectrum one = from_light(query, i, u, to, &known);
             sum = pm_spectrum_add(sum, pm_spectrum_scale(one, 1.0 / samples));
         }
     }
     return sum;
 }
 
+// --- directions drawn by lobes --------------------------------------------------------------
+
+/// What comes along a direction that a lobe drew with density `pdf`: of each lamp on the way
+/// its share, and the sky in full. Lamps of null surface shine and let pass.
+static pm_spectrum look_along(pm_direct_query *query, const receiver *to, pm_vec3 direction,
+                              double pdf)
+{
+    const pm_scene *scene = query->world->scene;
+    pm_ray ray = pm_hit_ray(to->hit, direction, 0.0, to->lobes->medium_here);
+    pm_spectrum sum = pm_gray(0.0);
+    pm_hit met;
+    query->rays++;
+    while (pm_closest(query->world, &ray, &met)) {
+        double other = pm_light_pdf(scene, &met, to->hit->position, direction);
+        if (other > 0.0) {
+            pm_spectrum lamp = pm_light_emitted(scene, &met, pm_vec_negate(direction));
+            double weight = pm_direct_weight(pdf, other);
+            sum = pm_spectrum_add(sum, pm_spectrum_scale(lamp, weight));
+        }
+        if (!pm_shape_is_null(scene, &scene->shapes[met.shape])) {
+            return sum;
+        }
+        ray = pm_hit_ray(&met, direction, 0.0, to->lobes->medium_here);
+    }
+    return pm_spectrum_add(sum, pm_light_sky(scene));
+}
+
+/// Lamps' share and sky by the directions of glossy lobe `which`.
+static pm_spectrum from_lobe(pm_direct_query *query, const receiver *to, int which)
+{
+    pm_spectrum albedo = to->lobes->lobe[which].albedo;
+    pm_spectrum sum = pm_gray(0.0);
+    for (uint32_t s = 0; s < query->samples; s++) {
+        pm_scatter scatter;
+        pm_material_sample(to->lobes, which, &query->rng, &scatter);
+        pm_spectrum weight = pm_spectrum_mul(albedo, scatter.weight);
+        if (!pm_spectrum_is_black(weight)) {
+            pm_spectrum seen = look_along(query, to, scatter.wo, scatter.pdf);
+            sum = pm_spectrum_add(sum, pm_spectrum_mul(weight, seen));
+        }
+    }
+    return pm_spectrum_scale(sum, 1.0 / query->samples);
+}
+
+/// f pi of all wide D lobes towards `direction`: their share of the sky, drawn by the cosine.
+static pm_spectrum wide_response(const pm_lobes *lobes, pm_vec3 direction)
+{
+    pm_spectrum sum = pm_gray(0.0);
+    for (int i = 0; i < lobes->count; i++) {
+        if (!lobes->lobe[i].specular && !draws_for_lamps(&lobes->lobe[i])) {
+            sum = pm_spectrum_add(sum, pm_material_value(lobes, i, direction));
+        }
+    }
+    return pm_spectrum_scale(sum, PM_PI);
+}
+
+/// The constant light `sky` on all wide D lobes together, by an even spread of directions.
+static pm_spectrum sky_on_wide(pm_direct_query *query, const receiver *to, pm_spectrum sky)
+{
+    pm_frame frame = pm_frame_around(to->lobes->normal);
+    pm_spectrum sum = pm_gray(0.0);
+    for (uint32_t s = 0; s < query->samples; s++) {
+        double u[2];
+        lattice_point(query, s, query->samples, u);
+        double radius = sqrt(u[0]);
+        double phi = 2.0 * PM_PI * u[1];
+        pm_vec3 local = pm_vec(radius * cos(phi), radius * sin(phi), sqrt(1.0 - u[0]));
+        pm_light_sample sample = {.direction = pm_frame_to_world(&frame, local),
+                                  .endless = true};
+        pm_spectrum f = wide_response(to->lobes, sample.direction);
+        if (!pm_spectrum_is_black(f) && !shadowed(query, to, &sample)) {
+            sum = pm_spectrum_add(sum, pm_spectrum_mul(f, sky));
+        }
+    }
+    return pm_spectrum_scale(sum, 1.0 / query->samples);
+}
+
+static bool has_lamp(const pm_scene *scene)
+{
+    for (int i = 0; i < scene->light_count; i++) {
+        if (scene->lights[i].type == PM_LIGHT_AREA) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// What only drawn directions find.
+static pm_spectrum from_lobes(pm_direct_query *query, const receiver *to)
+{
+    pm_spectrum sum = pm_gray(0.0);
+    const pm_scene *scene = query->world->scene;
+    pm_spectrum sky = pm_light_sky(scene);
+    bool dark = pm_spectrum_is_black(sky);
+    if (!dark) {
+        sum = sky_on_wide(query, to, sky);
+    }
+    if (pm_material_is_lambertian(to->lobes) || (dark && !has_lamp(scene))) {
+        return sum;
+    }
+    for (int i = 0; i < to->lobes->count; i++) {
+        if (!to->lobes->lobe[i].specular && draws_for_lamps(&to->lobes->lobe[i])) {
+            sum = pm_spectrum_add(sum, from_lobe(query, to, i));
+        }
+    }
+    return sum;
+}
+
+pm_spectrum pm_direct(pm_direct_query *query, const pm_hit *hit, const pm_lobes *lobes)
+{
+    receiver to = {hit, lobes, false};
+    pm_spectrum drawn_on_lights = from_lights(query, &to);
+    return pm_spectrum_add(drawn_on_lights, from_lobes(query, &to));
+}
+
 pm_spectrum pm_direct_glint(pm_direct_query *query, const pm_hit *hit, const pm_lobes *lobes)
 {
-    (void)query;
-    (void)hit;
-    (void)lobes;
+    receiver to = {hit, lobes, true};
+    for (int i = 0; i < lobes->count; i++) {
+        if (lobes->lobe[i].specular && draws_for_lamps(&lobes->lobe[i])) {
+            return from_lights(query, &to);
+        }
+    }
     return pm_gray(0.0);
 }

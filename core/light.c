@@ -11,7 +11,8 @@ double pm_light_falloff(const pm_light *light, double cosine)
     if (cosine <= cos(light->cutoff)) {
         return 0.0;
     }
-    return (light->cutoff - acos(cosine)) / (light->cutoff - light->beam);
+    double share = (light->cutoff - acos(cosine)) / (light->cutoff - light->beam);
+    return pm_least(1.0, pm_most(0.0, share)); // acos is coarse near 0, for very narrow cones
 }
 
 /// 1 - sin(x) / x, without the cancellation near 0.
