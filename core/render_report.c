@@ -1,107 +1,15 @@
 // Power is shown as the mean of the three channels; the JSON has all three.
 #include "render_report.h"
 
+#include "choice.h"
+#include "explain.h"
+#include "map_make.h"
 #include "map_power.h"
 #include "photon_map.h"
+#include "render_json.h"
 #include "report.h"
 
 #include <stdio.h>
-#include <sys/resource.h>
-
-static const char *const map_name[PM_MAP_COUNT] = {"global", "caustic", "volume"};
-
-static json_t *real_or_none(double value)
-{
-    return isfinite(value) ? json_real(value) : json_string("none");
-}
-
-static json_t *estimate_settings(const pm_estimate_settings *estimate)
-{
-    static const char *const filters[] = {"none", "cone", "gaussian", "epanechnikov"};
-    json_t *object =
-        json_pack("{s:I,s:s,s:f,s:s,s:s}", "k", (json_int_t)estimate->k, "shape",
-                  estimate->shape == PM_GATHER_DISC ? "disc" : "sphere", "flatness",
-                  estimate->flatness, "filter", filters[estimate->filter], "kernel_constants",
-                  estimate->constants == PM_CONSTANTS_UNBIASED ? "unbiased" : "lecture");
-    return pm_report_add(object, "r", real_or_none(estimate->radius));
-}
-
-static json_t *settings_object(const pm_scene *scene, const pm_render_settings *settings)
-{
-    json_t *photons = json_object();
-    for (int kind = 0; kind < PM_MAP_COUNT; kind++) {
-        json_t *count = json_integer((json_int_t)settings->photons[kind]);
-        photons = pm_report_add(photons, map_name[kind], count);
-    }
-    json_t *object =
-        json_pack("{s:I,s:i,s:i,s:I,s:I,s:I,s:s,s:b}", "seed", (json_int_t)settings->seed,
-                  "width", scene->camera.width, "height", scene->camera.height, "spp",
-                  (json_int_t)settings->light.spp, "gather", (json_int_t)settings->light.rays,
-                  "stored", (json_int_t)settings->stored, "roulette",
-                  settings->roulette == PM_ROULETTE_MAX ? "max" : "average", "packing",
-                  !settings->unpacked);
-    object = pm_report_add(object, "photons", photons);
-    return pm_report_add(object, "estimate", estimate_settings(&settings->light.estimate));
-}
-
-static json_t *maps_object(const pm_render_maps *maps)
-{
-    json_t *object = json_object();
-    for (int kind = 0; kind < PM_MAP_COUNT; kind++) {
-        if (maps->has[kind]) {
-            object = pm_report_add(object, map_name[kind], pm_report_map(&maps->map[kind]));
-        }
-    }
-    return object;
-}
-
-static json_t *flux_object(const pm_render_maps *maps)
-{
-    json_t *object = json_object();
-    for (int kind = 0; kind < PM_MAP_COUNT; kind++) {
-        if (maps->pass[kind].emitted > 0) {
-            object =
-                pm_report_add(object, map_name[kind], pm_report_flux(&maps->pass[kind].audit));
-        }
-    }
-    return object;
-}
-
-static json_t *seconds_object(const pm_render_maps *maps, const pm_eye_report *eye)
-{
-    double trace = 0.0;
-    double balance = 0.0;
-    for (int kind = 0; kind < PM_MAP_COUNT; kind++) {
-        trace += maps->pass[kind].seconds;
-        balance += maps->balance_seconds[kind];
-    }
-    return json_pack("{s:f,s:f,s:f,s:f}", "photons", trace, "balance", balance, "picture",
-                     eye->seconds, "total", trace + balance + eye->seconds);
-}
-
-static json_int_t peak_bytes(void)
-{
-    struct rusage usage;
-    getrusage(RUSAGE_SELF, &usage);
-    return (json_int_t)usage.ru_maxrss * 1024;
-}
-
-static json_t *whole_object(const pm_scene *scene, const pm_render_settings *settings,
-                            const pm_render_maps *maps, const pm_eye_report *eye)
-{
-    json_t *object = json_pack("{s:s}", "scene", scene->path);
-    object = pm_report_add(object, "plan", pm_report_plan(&maps->plan));
-    object = pm_report_add(object, "settings", settings_object(scene, settings));
-    object = pm_report_add(object, "maps", maps_object(maps));
-    object = pm_report_add(object, "flux", flux_object(maps));
-    object = pm_report_add(object, "eye_paths_cut", json_integer((json_int_t)eye->cut));
-    object =
-        pm_report_add(object, "pixels_too_bright", json_integer((json_int_t)eye->too_bright));
-    object = pm_report_add(object, "black", json_boolean(eye->black));
-    object = pm_report_add(object, "notes", pm_report_notes(scene));
-    object = pm_report_add(object, "seconds", seconds_object(maps, eye));
-    return pm_report_add(object, "peak_bytes", json_integer(peak_bytes()));
-}
 
 static void row(const char *stage, const char *map, double cpu, uint64_t photons,
                 pm_spectrum power_in, pm_spectrum power_out)
@@ -111,7 +19,7 @@ static void row(const char *stage, const char *map, double cpu, uint64_t photons
            pm_spectrum_mean(power_out));
 }
 
-static void print_map(const pm_scene *scene, const pm_render_maps *maps, int kind)
+static void print_map(const pm_scene *scene, const pm_render_maps *maps, pm_map_kind kind)
 {
     const pm_pass_report *pass = &maps->pass[kind];
     const pm_photon_map *map = &maps->map[kind];
@@ -124,43 +32,53 @@ static void print_map(const pm_scene *scene, const pm_render_maps *maps, int kin
         const pm_audit *audit = &pass->audit;
         pm_spectrum ended =
             pm_spectrum_add(audit->absorbed, pm_spectrum_add(audit->escaped, audit->lost));
-        row("emission", map_name[kind], pass->emit_cpu, pass->emitted, flux, audit->emitted);
-        row("tracing", map_name[kind], pass->trace_cpu, pass->emitted, audit->emitted, ended);
-        row("storage", map_name[kind], pass->store_cpu, map->count, pass->deposited, power);
+        row("emission", pm_map_name(kind), pass->emit_cpu, pass->emitted, flux, audit->emitted);
+        row("tracing", pm_map_name(kind), pass->trace_cpu, pass->emitted, audit->emitted,
+            ended);
+        row("storage", pm_map_name(kind), pass->store_cpu, map->count, pass->deposited, power);
     }
-    row("balancing", map_name[kind], maps->balance_seconds[kind], map->count, power, power);
+    row("balancing", pm_map_name(kind), maps->balance_seconds[kind], map->count, power, power);
 }
 
-static void remark_on_map(const pm_render_maps *maps, int kind)
+static void remark_on_map(const pm_render_maps *maps, pm_map_kind kind)
 {
     const pm_photon_map *map = &maps->map[kind];
     double lost = pm_spectrum_mean(maps->pass[kind].audit.lost);
     if (map->refused > 0) {
-        printf("%s map: %llu photons without a finite value were refused\n", map_name[kind],
+        printf("%s map: %llu photons without a finite value were refused\n", pm_map_name(kind),
                (unsigned long long)map->refused);
     }
     if (map->clamped > 0 || map->vanished > 0) {
         printf("%s map: %llu photons are above and %llu below the powers that can be stored\n",
-               map_name[kind], (unsigned long long)map->clamped,
+               pm_map_name(kind), (unsigned long long)map->clamped,
                (unsigned long long)map->vanished);
     }
     if (lost > 0.0) {
         printf("%s map: %g W were lost with photons cut after too many events\n",
-               map_name[kind], lost);
+               pm_map_name(kind), lost);
+    }
+}
+
+/// Paths that no map brings, and settings without effect.
+static void remark_on_choices(const pm_render_settings *settings, const pm_render_maps *maps)
+{
+    pm_choice choices[PM_CHOICES_MAX];
+    int count = pm_choice_list(settings, maps, choices);
+    for (int i = 0; i < count; i++) {
+        if (choices[i].missing || choices[i].idle) {
+            printf("%s: %s\n", choices[i].option, choices[i].effect);
+        }
     }
 }
 
 /// What a picture does not show, or shows wrongly: nothing of that passes in silence.
-static void print_remarks(const pm_render_maps *maps, const pm_eye_report *eye)
+static void print_remarks(const pm_render_settings *settings, const pm_render_maps *maps,
+                          const pm_eye_report *eye)
 {
-    for (int kind = 0; kind < PM_MAP_COUNT; kind++) {
+    for (pm_map_kind kind = 0; kind < PM_MAP_COUNT; kind++) {
         remark_on_map(maps, kind);
     }
-    for (pm_plan_part part = 0; part < PM_PLAN_COUNT; part++) {
-        if (maps->plan.item[part].missing) {
-            puts(maps->plan.item[part].left_out);
-        }
-    }
+    remark_on_choices(settings, maps);
     if (eye->cut > 0) {
         printf("%llu eye paths and gather rays were cut after too many mirrors or glasses\n",
                (unsigned long long)eye->cut);
@@ -174,18 +92,47 @@ static void print_remarks(const pm_render_maps *maps, const pm_eye_report *eye)
     }
 }
 
+static void print_projection(const pm_render_maps *maps, pm_map_kind kind)
+{
+    const pm_projections *aim = &maps->aim[kind];
+    if (pm_projection_of(aim) != NULL) {
+        printf("%-10s %-8s %llu of %llu cells lit; %g W never sent; %llu photons saved\n",
+               "projection", pm_map_name(kind), (unsigned long long)aim->active,
+               (unsigned long long)aim->cells, pm_spectrum_mean(aim->dark),
+               (unsigned long long)pm_projection_saved(aim, maps->pass[kind].emitted));
+    }
+}
+
+static void print_eye(const pm_render_maps *maps, const pm_eye_report *eye)
+{
+    if (maps->irradiance.count > 0) {
+        printf("%-10s %-8s %8.2f %12u places of known irradiance (seconds on the wall)\n",
+               "precompute", "", maps->irradiance_seconds, maps->irradiance.count);
+    }
+    printf("%-10s %-8s %8.2f %12llu estimates in the global map\n", "picture", "", eye->cpu,
+           (unsigned long long)eye->lookups);
+    if (maps->shadow_photons > 0) {
+        double all = (double)eye->shadow_rays + (double)eye->shadow_spared;
+        printf("%-10s %-8s %llu shadow rays, %llu spared (%.1f %%) by %llu shadow photons\n",
+               "direct", "", (unsigned long long)eye->shadow_rays,
+               (unsigned long long)eye->shadow_spared,
+               all > 0.0 ? 100.0 * (double)eye->shadow_spared / all : 0.0,
+               (unsigned long long)maps->shadow_photons);
+    }
+}
+
 static void print_table(const pm_scene *scene, const pm_render_maps *maps,
                         const pm_eye_report *eye)
 {
     printf("%-10s %-8s %8s %12s %14s %14s\n", "stage", "map", "CPU s", "photons", "power in W",
            "power out W");
-    for (int kind = 0; kind < PM_MAP_COUNT; kind++) {
+    for (pm_map_kind kind = 0; kind < PM_MAP_COUNT; kind++) {
         if (maps->has[kind]) {
             print_map(scene, maps, kind);
+            print_projection(maps, kind);
         }
     }
-    printf("%-10s %-8s %8.2f %12llu estimates in the global map\n", "picture", "", eye->cpu,
-           (unsigned long long)eye->lookups);
+    print_eye(maps, eye);
     puts("Tracing's power out is what was absorbed, escaped or was cut; storage's is every "
          "deposit,");
     puts("so light that bounces counts at each meeting. Power is the mean of three channels.");
@@ -197,10 +144,10 @@ pm_status pm_render_report(const pm_options *options, const pm_scene *scene,
 {
     if (!options->json) {
         print_table(scene, maps, eye);
-        print_remarks(maps, eye);
+        print_remarks(settings, maps, eye);
     }
-    PM_TRY(pm_report_end(options, whole_object(scene, settings, maps, eye)));
-    for (int kind = 0; kind < PM_MAP_COUNT; kind++) {
+    PM_TRY(pm_report_end(options, pm_render_json(scene, settings, maps, eye)));
+    for (pm_map_kind kind = 0; kind < PM_MAP_COUNT; kind++) {
         if (maps->pass[kind].emitted > 0) {
             PM_TRY(pm_audit_check(&maps->pass[kind].audit));
         }
@@ -208,20 +155,26 @@ pm_status pm_render_report(const pm_options *options, const pm_scene *scene,
     return PM_OK;
 }
 
-pm_status pm_render_report_plan(const pm_options *options, const pm_plan *plan)
+pm_status pm_render_report_plan(const pm_options *options, const pm_render_settings *settings,
+                                const pm_render_maps *maps)
 {
-    for (pm_plan_part part = 0; part < PM_PLAN_COUNT && !options->json; part++) {
-        const pm_plan_item *item = &plan->item[part];
-        printf("%-10s %-3s  %s\n", pm_plan_name(part), item->needed ? "yes" : "no", item->why);
+    if (!options->json) {
+        pm_explain_print(settings, maps, stdout);
     }
-    return pm_report_end(options, pm_report_add(json_object(), "plan", pm_report_plan(plan)));
+    return pm_report_end(options, pm_explain_json(settings, maps));
+}
+
+static const char *plural(int count)
+{
+    return count == 1 ? "" : "s";
 }
 
 pm_status pm_render_report_check(const pm_options *options, const pm_scene *scene)
 {
     if (!options->json) {
-        printf("%s: fine: %d shapes, %d materials, %d lights\n", scene->path,
-               scene->shape_count, scene->material_count, scene->light_count);
+        printf("%s: fine: %d shape%s, %d material%s, %d light%s\n", scene->path,
+               scene->shape_count, plural(scene->shape_count), scene->material_count,
+               plural(scene->material_count), scene->light_count, plural(scene->light_count));
     }
     for (int i = 0; i < scene->note_count && !options->json; i++) {
         puts(scene->notes[i]);

@@ -11,8 +11,10 @@ pm_status pm_render_report(const pm_options *options, const pm_scene *scene,
                            const pm_render_settings *settings, const pm_render_maps *maps,
                            const pm_eye_report *eye);
 
-/// For --explain: the plan, and what each part of it is for.
-pm_status pm_render_report_plan(const pm_options *options, const pm_plan *plan);
+/// For --explain: the plan, what each part of it costs, and what is left out; `maps` is
+/// planned.
+pm_status pm_render_report_plan(const pm_options *options, const pm_render_settings *settings,
+                                const pm_render_maps *maps);
 
 /// For --check: that the scene is fine, and what it holds.
 pm_status pm_render_report_check(const pm_options *options, const pm_scene *scene);

@@ -3,12 +3,12 @@
 
 #include "option.h"
 #include "word.h"
+#include "wrap.h"
 
 #include <inttypes.h>
 #include <string.h>
 
 #define INDENT 28
-#define COLUMNS 96
 
 // The default value of an option as text; empty for options without one.
 static void describe_default(const pm_option *option, const pm_options *defaults, char *text,
@@ -46,27 +46,6 @@ static void describe_default(const pm_option *option, const pm_options *defaults
     }
 }
 
-// Prints words, breaking lines so that all stand right of INDENT.
-static void print_wrapped(const char *text, FILE *stream)
-{
-    int column = INDENT;
-    for (const char *at = text; *at != '\0';) {
-        int span = (int)strcspn(at, " ");
-        if (column > INDENT && column + 1 + span > COLUMNS) {
-            fprintf(stream, "\n%*s", INDENT, "");
-            column = INDENT;
-        } else if (column > INDENT) {
-            fputc(' ', stream);
-            column++;
-        }
-        fprintf(stream, "%.*s", span, at);
-        column += span;
-        at += span;
-        at += strspn(at, " ");
-    }
-    fputc('\n', stream);
-}
-
 static void print_option(const pm_option *option, bool needed, FILE *stream)
 {
     char name[32];
@@ -87,7 +66,7 @@ static void print_option(const pm_option *option, bool needed, FILE *stream)
     fprintf(stream, "%-*s", INDENT - 1, head);
     fprintf(stream, strlen(head) > INDENT - 2 ? "\n%*s" : "%*s",
             strlen(head) > INDENT - 2 ? INDENT : 1, "");
-    print_wrapped(text, stream);
+    pm_wrap_print(text, INDENT, stream);
 }
 
 void pm_usage_print(const pm_options_program *program, FILE *stream)

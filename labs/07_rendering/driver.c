@@ -104,7 +104,7 @@ static pm_status explain(pm_job *job)
 {
     const pm_scene *scene = &job->world.scene;
     PM_TRY(pm_render_plan(scene, &job->settings, &job->maps));
-    return pm_render_report_plan(job->options, &job->maps.plan);
+    return pm_render_report_plan(job->options, &job->settings, &job->maps);
 }
 
 static pm_status run(pm_job *job)
