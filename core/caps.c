@@ -1,6 +1,8 @@
 // Below an albedo of 0.9999 roulette ends paths soon enough by itself.
 #include "caps.h"
 
+#include "material.h"
+
 #define DIFFUSE_CAP 10000u
 #define DIFFUSE_CAP_ABOVE 0.9999
 #define SPECULAR_CAP 1000u
@@ -8,9 +10,7 @@
 static bool needs_cap(const pm_scene *scene)
 {
     for (int i = 0; i < scene->material_count; i++) {
-        const pm_material *material = &scene->materials[i];
-        if (material->type == PM_BSDF_DIFFUSE &&
-            pm_spectrum_max(material->reflectance) > DIFFUSE_CAP_ABOVE) {
+        if (pm_material_traits_of(&scene->materials[i]).albedo > DIFFUSE_CAP_ABOVE) {
             return true;
         }
     }

@@ -1,54 +1,24 @@
-// Smooth dielectrics and conductors after Fresnel, Lambertian reflection, null.
+// Every material is a list of lobes, and every lobe knows its own value, density and sampling.
+// Plastics are a mirror, or microfacets, over a ground that light leaves through the coat.
 #include "material.h"
+
+#include "coat.h"
+#include "fresnel.h"
+#include "microfacet.h"
 
 static double square(double x)
 {
     return x * x;
 }
 
-/// Reflectance of a dielectric interface for unpolarised light; eta = n_i / n_t. Writes the
-/// cosine of the refracted direction, 0 on total reflection.
-static double dielectric_reflectance(double cos_i, double eta, double *cos_t)
+static double cosine_of(const pm_lobes *lobes, pm_vec3 w)
 {
-    if (eta == 1.0) { // both sides alike, at grazing angles too
-        *cos_t = cos_i;
-        return 0.0;
-    }
-    // 1 - eta^2 sin^2, in a form that loses no digits where eta is near 1 or light grazes.
-    double cos2_t = (1.0 - eta) * (1.0 + eta) + square(eta * cos_i);
-    if (cos2_t <= 0.0) {
-        *cos_t = 0.0;
-        return 1.0;
-    }
-    *cos_t = sqrt(cos2_t);
-    double across = eta * cos_i + *cos_t;
-    double along = cos_i + eta * *cos_t;
-    double r_s = (eta * cos_i - *cos_t) / across;
-    double r_p = (cos_i - eta * *cos_t) / along;
-    return 0.5 * (square(r_s) + square(r_p));
+    return pm_vec_dot(w, lobes->normal);
 }
 
-/// Reflectance of a conductor seen from vacuum, one channel.
-static double conductor_reflectance(double cos_i, double eta, double k)
+/// D lobes stay when they are black, so that photons are stored on black walls too.
+static void add_lobe(pm_lobes *lobes, pm_lobe_type type, bool specular, pm_spectrum albedo)
 {
-    double cos2 = square(cos_i);
-    double sin2 = 1.0 - cos2;
-    double t0 = (eta - 1.0) * (eta + 1.0) - square(k) + cos2; // eta^2 - k^2 - sin^2
-    double a2_plus_b2 = sqrt(square(t0) + 4.0 * square(eta) * square(k));
-    double t1 = a2_plus_b2 + cos2;
-    double t2 = 2.0 * cos_i * sqrt(pm_most(0.0, 0.5 * (a2_plus_b2 + t0)));
-    if (t1 + t2 == 0.0) { // index 1, exactly grazing
-        return 0.0;
-    }
-    double r_s = (t1 - t2) / (t1 + t2);
-    double t3 = cos2 * a2_plus_b2 + square(sin2);
-    double t4 = t2 * sin2;
-    return 0.5 * r_s * (1.0 + (t3 - t4) / (t3 + t4));
-}
-
-static void add_lobe(pm_lobes *lobes, pm_lobe_type type, pm_spectrum albedo)
-{
-    bool specular = type != PM_LOBE_DIFFUSE;
     if (specular && pm_spectrum_is_black(albedo)) {
         return;
     }
@@ -56,26 +26,96 @@ static void add_lobe(pm_lobes *lobes, pm_lobe_type type, pm_spectrum albedo)
     lobes->diffuse = lobes->diffuse || !specular;
 }
 
+/// Whether a rough reflection is narrow enough to be followed like a mirror's.
+static bool glossy_is_specular(const pm_material *material)
+{
+    return material->alpha <= 0.1;
+}
+
 static void add_dielectric(pm_lobes *lobes, const pm_material *material, bool inside)
 {
     lobes->eta =
         inside ? material->int_ior / material->ext_ior : material->ext_ior / material->int_ior;
-    double cos_i = pm_vec_dot(lobes->wi, lobes->normal);
-    double reflected = dielectric_reflectance(cos_i, lobes->eta, &lobes->cos_beyond);
-    add_lobe(lobes, PM_LOBE_REFLECT,
+    double reflected =
+        pm_fresnel_dielectric(cosine_of(lobes, lobes->wi), lobes->eta, &lobes->cos_beyond);
+    add_lobe(lobes, PM_LOBE_REFLECT, true,
              pm_spectrum_scale(material->specular_reflectance, reflected));
-    add_lobe(lobes, PM_LOBE_TRANSMIT,
+    add_lobe(lobes, PM_LOBE_TRANSMIT, true,
              pm_spectrum_scale(material->specular_transmittance, 1.0 - reflected));
 }
 
-static void add_conductor(pm_lobes *lobes, const pm_material *material)
+/// The same from both sides: the pane's own two faces are one surface here.
+static void add_pane(pm_lobes *lobes, const pm_material *material)
+{
+    double reflected =
+        pm_fresnel_pane(cosine_of(lobes, lobes->wi), material->ext_ior / material->int_ior);
+    add_lobe(lobes, PM_LOBE_REFLECT, true,
+             pm_spectrum_scale(material->specular_reflectance, reflected));
+    add_lobe(lobes, PM_LOBE_STRAIGHT, true,
+             pm_spectrum_scale(material->specular_transmittance, 1.0 - reflected));
+}
+
+/// What a mirror of this material reflects at this cosine, its own or a microfacet's.
+static pm_spectrum mirror_reflectance(const pm_material *material, double cosine)
 {
     pm_spectrum fresnel = pm_gray(1.0);
-    double cos_i = pm_vec_dot(lobes->wi, lobes->normal);
-    for (int c = 0; c < 3 && !material->perfect_mirror; c++) {
-        fresnel.c[c] = conductor_reflectance(cos_i, material->eta.c[c], material->k.c[c]);
+    if (material->type == PM_BSDF_ROUGH_PLASTIC) {
+        double cos_t;
+        double eta = material->ext_ior / material->int_ior;
+        fresnel = pm_gray(pm_fresnel_dielectric(cosine, eta, &cos_t));
+    } else if (!material->perfect_mirror) {
+        for (int c = 0; c < 3; c++) {
+            fresnel.c[c] = pm_fresnel_conductor(cosine, material->eta.c[c], material->k.c[c]);
+        }
     }
-    add_lobe(lobes, PM_LOBE_REFLECT, pm_spectrum_mul(material->specular_reflectance, fresnel));
+    return pm_spectrum_mul(material->specular_reflectance, fresnel);
+}
+
+static void add_metal(pm_lobes *lobes, const pm_material *material)
+{
+    pm_spectrum albedo = mirror_reflectance(material, cosine_of(lobes, lobes->wi));
+    if (material->type == PM_BSDF_CONDUCTOR) {
+        add_lobe(lobes, PM_LOBE_REFLECT, true, albedo);
+    } else {
+        add_lobe(lobes, PM_LOBE_GLOSSY, glossy_is_specular(material), albedo);
+    }
+}
+
+static void add_plastic(pm_lobes *lobes, const pm_material *material)
+{
+    bool rough = material->type == PM_BSDF_ROUGH_PLASTIC;
+    double through = pm_coat_through(material, cosine_of(lobes, lobes->wi));
+    add_lobe(lobes, rough ? PM_LOBE_GLOSSY : PM_LOBE_REFLECT,
+             !rough || glossy_is_specular(material),
+             pm_spectrum_scale(material->specular_reflectance, 1.0 - through));
+    add_lobe(lobes, PM_LOBE_COATED, false,
+             pm_spectrum_scale(material->reflectance, through * pm_coat_gain(material)));
+}
+
+static void add_lobes(pm_lobes *lobes, const pm_material *material, bool behind)
+{
+    switch (material->type) {
+    case PM_BSDF_DIFFUSE:
+        add_lobe(lobes, PM_LOBE_DIFFUSE, false, material->reflectance);
+        break;
+    case PM_BSDF_DIELECTRIC:
+        add_dielectric(lobes, material, behind);
+        break;
+    case PM_BSDF_THIN_DIELECTRIC:
+        add_pane(lobes, material);
+        break;
+    case PM_BSDF_CONDUCTOR:
+    case PM_BSDF_ROUGH_CONDUCTOR:
+        add_metal(lobes, material);
+        break;
+    case PM_BSDF_PLASTIC:
+    case PM_BSDF_ROUGH_PLASTIC:
+        add_plastic(lobes, material);
+        break;
+    case PM_BSDF_NULL:
+        lobes->passes = true;
+        break;
+    }
 }
 
 void pm_material_lobes(const pm_scene *scene, const pm_hit *hit, pm_vec3 wi, double wavelength,
@@ -95,24 +135,8 @@ void pm_material_lobes(const pm_scene *scene, const pm_hit *hit, pm_vec3 wi, dou
     if (index == PM_NONE) {
         return;
     }
-    const pm_material *material = &scene->materials[index];
-    lobes->material = material;
-    switch (material->type) {
-    case PM_BSDF_DIFFUSE:
-        add_lobe(lobes, PM_LOBE_DIFFUSE, material->reflectance);
-        break;
-    case PM_BSDF_DIELECTRIC:
-        add_dielectric(lobes, material, behind);
-        break;
-    case PM_BSDF_CONDUCTOR:
-        add_conductor(lobes, material);
-        break;
-    case PM_BSDF_NULL:
-        lobes->passes = true;
-        break;
-    default:
-        break;
-    }
+    lobes->material = &scene->materials[index];
+    add_lobes(lobes, lobes->material, behind);
 }
 
 static pm_vec3 cosine_direction(pm_vec3 normal, pm_rng *rng)
@@ -132,6 +156,48 @@ static pm_vec3 refracted(const pm_lobes *lobes)
     return pm_vec_normalize(pm_vec_along(flat, lobes->normal, along));
 }
 
+static pm_microfacet facets_of(const pm_lobes *lobes)
+{
+    return (pm_microfacet){lobes->material->microfacet, lobes->material->alpha};
+}
+
+static pm_vec3 drawn_facet(const pm_lobes *lobes, pm_rng *rng)
+{
+    pm_frame frame = pm_frame_around(lobes->normal);
+    pm_vec3 wi = pm_vec(pm_vec_dot(lobes->wi, frame.s), pm_vec_dot(lobes->wi, frame.t),
+                        pm_vec_dot(lobes->wi, frame.n));
+    return pm_frame_to_world(&frame, pm_microfacet_normal(facets_of(lobes), wi, rng));
+}
+
+/// f cos / pdf = F G1(wo), of which the lobe's albedo has a part already. What a facet sends
+/// below the surface is lost in the roughness: weight 0, on a harmless way out.
+static void sample_glossy(const pm_lobes *lobes, pm_spectrum albedo, pm_rng *rng,
+                          pm_scatter *scatter)
+{
+    pm_vec3 facet = drawn_facet(lobes, rng);
+    double cos_i = pm_vec_dot(lobes->wi, facet);
+    scatter->wo = pm_vec_normalize(pm_vec_reflect(lobes->wi, facet));
+    double cos_o = cosine_of(lobes, scatter->wo);
+    scatter->weight = pm_gray(0.0);
+    if (cos_i <= 0.0 || cos_o <= 0.0) {
+        scatter->wo = pm_vec_normalize(pm_vec_reflect(lobes->wi, lobes->normal));
+        return;
+    }
+    double unmasked = cos_o / pm_microfacet_seen(facets_of(lobes), pm_least(1.0, cos_o));
+    pm_spectrum fresnel = mirror_reflectance(lobes->material, pm_least(1.0, cos_i));
+    for (int c = 0; c < 3; c++) {
+        scatter->weight.c[c] = albedo.c[c] > 0.0 ? fresnel.c[c] * unmasked / albedo.c[c] : 0.0;
+    }
+}
+
+/// f cos / pdf over the albedo: how much easier than on average the coat lets light out.
+static pm_spectrum coated_weight(const pm_lobes *lobes, pm_vec3 wo)
+{
+    double mean = lobes->material->coat_mean;
+    double through = pm_coat_through(lobes->material, cosine_of(lobes, wo));
+    return pm_gray(mean > 0.0 ? through / mean : 0.0);
+}
+
 void pm_material_sample(const pm_lobes *lobes, int which, pm_rng *rng, pm_scatter *scatter)
 {
     *scatter = (pm_scatter){
@@ -142,7 +208,13 @@ void pm_material_sample(const pm_lobes *lobes, int which, pm_rng *rng, pm_scatte
     switch (lobes->lobe[which].type) {
     case PM_LOBE_DIFFUSE:
         scatter->wo = cosine_direction(lobes->normal, rng);
-        scatter->pdf = pm_material_pdf(lobes, which, scatter->wo);
+        break;
+    case PM_LOBE_COATED:
+        scatter->wo = cosine_direction(lobes->normal, rng);
+        scatter->weight = coated_weight(lobes, scatter->wo);
+        break;
+    case PM_LOBE_GLOSSY:
+        sample_glossy(lobes, lobes->lobe[which].albedo, rng, scatter);
         break;
     case PM_LOBE_REFLECT:
         scatter->wo = pm_vec_normalize(pm_vec_reflect(lobes->wi, lobes->normal));
@@ -152,17 +224,53 @@ void pm_material_sample(const pm_lobes *lobes, int which, pm_rng *rng, pm_scatte
         scatter->radiance = square(lobes->eta);
         scatter->medium = lobes->medium_beyond;
         break;
-    default:
+    case PM_LOBE_STRAIGHT:
+        scatter->wo = pm_vec_negate(lobes->wi);
+        scatter->medium = lobes->medium_beyond;
         break;
     }
+    scatter->pdf = pm_material_pdf(lobes, which, scatter->wo);
+}
+
+/// D(h) / (4 s(wi)), with h half way between wi and wo: the density of wo.
+static double glossy_pdf(const pm_lobes *lobes, pm_vec3 wo)
+{
+    pm_vec3 half = pm_vec_add(lobes->wi, wo);
+    pm_vec3 flat = pm_vec_cross(half, lobes->normal);
+    double length2 = pm_vec_dot(half, half);
+    double cos2 = square(cosine_of(lobes, half)) / length2;
+    double sin2 = pm_vec_dot(flat, flat) / length2;
+    double cosine = pm_least(1.0, cosine_of(lobes, lobes->wi));
+    pm_microfacet facets = facets_of(lobes);
+    return 0.25 * pm_microfacet_density(facets, cos2, sin2) /
+           pm_microfacet_seen(facets, cosine);
+}
+
+/// F D(h) / (4 s(wi) s(wo)).
+static pm_spectrum glossy_value(const pm_lobes *lobes, pm_vec3 wo)
+{
+    double length = pm_vec_length(pm_vec_add(lobes->wi, wo)); // 2 cos(wi, h)
+    pm_spectrum fresnel = mirror_reflectance(lobes->material, pm_least(1.0, 0.5 * length));
+    double seen = pm_microfacet_seen(facets_of(lobes), pm_least(1.0, cosine_of(lobes, wo)));
+    return pm_spectrum_scale(fresnel, glossy_pdf(lobes, wo) / seen);
 }
 
 pm_spectrum pm_material_value(const pm_lobes *lobes, int which, pm_vec3 wo)
 {
-    bool reflects = lobes->lobe[which].type == PM_LOBE_DIFFUSE;
-    bool above = pm_vec_dot(wo, lobes->normal) > 0.0;
-    return reflects && above ? pm_spectrum_scale(lobes->lobe[which].albedo, 1.0 / PM_PI)
-                             : pm_gray(0.0);
+    if (!(cosine_of(lobes, wo) > 0.0)) {
+        return pm_gray(0.0);
+    }
+    pm_spectrum flat = pm_spectrum_scale(lobes->lobe[which].albedo, 1.0 / PM_PI);
+    switch (lobes->lobe[which].type) {
+    case PM_LOBE_DIFFUSE:
+        return flat;
+    case PM_LOBE_COATED:
+        return pm_spectrum_mul(flat, coated_weight(lobes, wo));
+    case PM_LOBE_GLOSSY:
+        return glossy_value(lobes, wo);
+    default:
+        return pm_gray(0.0);
+    }
 }
 
 pm_spectrum pm_material_evaluate(const pm_lobes *lobes, pm_vec3 wo)
@@ -178,9 +286,19 @@ pm_spectrum pm_material_evaluate(const pm_lobes *lobes, pm_vec3 wo)
 
 double pm_material_pdf(const pm_lobes *lobes, int which, pm_vec3 wo)
 {
-    double cosine = pm_vec_dot(wo, lobes->normal);
-    bool samples = lobes->lobe[which].type == PM_LOBE_DIFFUSE && cosine > 0.0;
-    return samples ? cosine / PM_PI : 0.0;
+    double cosine = cosine_of(lobes, wo);
+    if (!(cosine > 0.0)) {
+        return 0.0;
+    }
+    switch (lobes->lobe[which].type) {
+    case PM_LOBE_DIFFUSE:
+    case PM_LOBE_COATED:
+        return cosine / PM_PI;
+    case PM_LOBE_GLOSSY:
+        return glossy_pdf(lobes, wo);
+    default:
+        return 0.0;
+    }
 }
 
 bool pm_material_is_lambertian(const pm_lobes *lobes)
@@ -193,21 +311,71 @@ bool pm_material_is_lambertian(const pm_lobes *lobes)
     return true;
 }
 
+static pm_material_traits traits_of_metal(const pm_material *material)
+{
+    double reflects = pm_spectrum_max(mirror_reflectance(material, 0.0));
+    bool smooth = material->type == PM_BSDF_CONDUCTOR;
+    bool specular = smooth || glossy_is_specular(material);
+    return (pm_material_traits){
+        .diffuse = !specular,
+        .reflecting = !specular && reflects > 0.0,
+        .specular = specular && reflects > 0.0,
+        .delta = smooth && reflects > 0.0,
+        .albedo = specular ? 0.0 : reflects, // at grazing angles, where metals reflect most
+    };
+}
+
+static pm_material_traits traits_of_plastic(const pm_material *material)
+{
+    bool smooth = material->type == PM_BSDF_PLASTIC;
+    bool coated = material->int_ior != material->ext_ior &&
+                  !pm_spectrum_is_black(material->specular_reflectance);
+    bool specular = coated && (smooth || glossy_is_specular(material));
+    double out = material->coat_mean * pm_coat_gain(material);
+    pm_spectrum ground = pm_spectrum_scale(material->reflectance, out);
+    pm_spectrum coat =
+        pm_spectrum_scale(material->specular_reflectance, 1.0 - material->coat_mean);
+    return (pm_material_traits){
+        .diffuse = true,
+        .reflecting = !pm_spectrum_is_black(material->reflectance) || (coated && !specular),
+        .specular = specular,
+        .delta = specular && smooth,
+        .albedo = pm_spectrum_max(pm_spectrum_add(ground, coat)),
+    };
+}
+
+static pm_material_traits traits_of_glass(const pm_material *material)
+{
+    bool dark = pm_spectrum_is_black(material->specular_reflectance) &&
+                pm_spectrum_is_black(material->specular_transmittance);
+    return (pm_material_traits){.specular = !dark, .delta = !dark, .transmits = true};
+}
+
 pm_material_traits pm_material_traits_of(const pm_material *material)
 {
-    pm_material_traits traits = {0};
-    if (material->type == PM_BSDF_DIFFUSE) {
-        traits.diffuse = true;
-        traits.albedo = pm_spectrum_max(material->reflectance);
-        traits.reflecting = traits.albedo > 0.0;
+    double albedo = pm_spectrum_max(material->reflectance);
+    switch (material->type) {
+    case PM_BSDF_DIFFUSE:
+        return (pm_material_traits){
+            .diffuse = true, .reflecting = albedo > 0.0, .albedo = albedo};
+    case PM_BSDF_CONDUCTOR:
+    case PM_BSDF_ROUGH_CONDUCTOR:
+        return traits_of_metal(material);
+    case PM_BSDF_PLASTIC:
+    case PM_BSDF_ROUGH_PLASTIC:
+        return traits_of_plastic(material);
+    case PM_BSDF_DIELECTRIC:
+    case PM_BSDF_THIN_DIELECTRIC:
+        return traits_of_glass(material);
+    case PM_BSDF_NULL:
+        return (pm_material_traits){.transmits = true};
     }
-    traits.specular = traits.delta =
-        material->type == PM_BSDF_DIELECTRIC || material->type == PM_BSDF_CONDUCTOR;
-    traits.transmits = material->type == PM_BSDF_DIELECTRIC || material->type == PM_BSDF_NULL;
-    return traits;
+    return (pm_material_traits){0};
 }
 
 void pm_material_prepare(pm_material *material)
 {
-    (void)material;
+    if (material->type == PM_BSDF_PLASTIC || material->type == PM_BSDF_ROUGH_PLASTIC) {
+        pm_coat_prepare(material);
+    }
 }

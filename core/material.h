@@ -81,7 +81,8 @@ typedef struct {
     bool specular;   // has an S lobe that is not black
     bool delta;      // one of these is a smooth one: only by chance would a light be met there
     bool transmits;  // light goes through, null ones too
-    double albedo;   // largest channel that all D lobes together can reflect
+    double albedo;   // with a D lobe: of diffuse light, all its lobes together carry on no more
+                     // than this in any channel
 } pm_material_traits;
 
 pm_material_traits pm_material_traits_of(const pm_material *material);

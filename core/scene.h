@@ -45,9 +45,10 @@ typedef struct {
     bool perfect_mirror;                // conductor with material "none": reflects everything
     pm_spectrum eta, k;                 // conductor otherwise, relative to vacuum
     pm_microfacet_kind microfacet;      // rough ones
-    double alpha;                       // roughness, > 0; at most 0.1: its lobe counts as S
+    double alpha;                       // roughness, 1e-4 to 10; up to 0.1 its lobe counts as S
     // Of a plastic's coat, filled in by pm_material_prepare():
-    double coat[PM_COSINE_TABLE]; // share of light from outside that gets in, over its cosine
+    double coat[PM_COSINE_TABLE]; // rough: share of light from outside that gets in, over its
+                                  // cosine
     double coat_mean;             // its mean over a diffuse field, weighed by the cosine
     double coat_inside;           // share of diffuse light from within that is thrown back
 } pm_material;

@@ -42,7 +42,8 @@ static uint64_t add_material(uint64_t hash, const pm_scene *scene, int index)
     hash = add_spectrum(add_spectrum(hash, m->reflectance), m->specular_reflectance);
     hash = add_spectrum(hash, m->specular_transmittance);
     hash = add_number(add_number(hash, m->int_ior), m->ext_ior);
-    return add_spectrum(add_spectrum(hash, m->eta), m->k);
+    hash = add_spectrum(add_spectrum(hash, m->eta), m->k);
+    return add_number(add_integer(hash, (uint64_t)m->microfacet), m->alpha);
 }
 
 static uint64_t add_mesh(uint64_t hash, const pm_shape *shape)

@@ -1,6 +1,9 @@
 // Every bsdf of the file becomes a material, whether a shape uses it or not, so that a fault in
 // any of them is found. `twosided` is no material: it puts its own on both sides of a shape.
 #include "ior.h"
+#include "material.h"
+#include "microfacet.h"
+#include "nearest.h"
 #include "scene_build.h"
 #include "scene_value.h"
 
@@ -31,30 +34,87 @@ static double read_ior(pm_scene_file *source, const pm_xml *bsdf, const char *na
     return index;
 }
 
-static void read_conductor(pm_scene_file *source, const pm_xml *bsdf, pm_material *material)
+static void read_metal(pm_scene_file *source, const pm_xml *bsdf, pm_material *material)
 {
+    const char *type = pm_xml_attribute(bsdf, "type");
     const char *metal = pm_scene_value_text(bsdf, "material", "none");
     bool eta = pm_scene_value_find(bsdf, "eta") != NULL;
     bool k = pm_scene_value_find(bsdf, "k") != NULL;
     if (strcmp(metal, "none") != 0) {
         PM_FAULT(source, pm_scene_value_find(bsdf, "material"),
-                 "conductor material \"%.60s\" is not supported: write \"none\", or eta and k",
+                 "%s material \"%.60s\" is not supported: write \"none\", or eta and k", type,
                  metal);
     }
     if (eta != k) {
-        PM_FAULT(source, bsdf, "conductor needs both eta and k, or neither for a mirror");
+        PM_FAULT(source, bsdf, "%s needs both eta and k, or neither for a mirror", type);
     }
     material->perfect_mirror = !eta;
     material->eta = pm_scene_value_amount(source, bsdf, "eta", 1.0, true);
     material->k = pm_scene_value_amount(source, bsdf, "k", 0.0, false);
 }
 
-static void read_dielectric(pm_scene_file *source, const pm_xml *bsdf, pm_material *material)
+static void read_glass(pm_scene_file *source, const pm_xml *bsdf, pm_material *material)
 {
     material->int_ior = read_ior(source, bsdf, "int_ior", 1.5046);
     material->ext_ior = read_ior(source, bsdf, "ext_ior", 1.000277);
     material->specular_transmittance =
         pm_scene_value_ratio(source, bsdf, "specular_transmittance", 1.0);
+}
+
+static void read_plastic(pm_scene_file *source, const pm_xml *bsdf, pm_material *material)
+{
+    material->int_ior = read_ior(source, bsdf, "int_ior", 1.49);
+    material->ext_ior = read_ior(source, bsdf, "ext_ior", 1.000277);
+    material->reflectance = pm_scene_value_ratio(source, bsdf, "diffuse_reflectance", 0.5);
+}
+
+static void read_roughness(pm_scene_file *source, const pm_xml *bsdf, pm_material *material)
+{
+    // Mitsuba takes what lies below this as this; in silence that would be wrong here.
+    material->alpha = pm_scene_value_positive(source, bsdf, "alpha", 0.1);
+    if (material->alpha < PM_ALPHA_LEAST || material->alpha > PM_ALPHA_MOST) {
+        PM_FAULT(source, pm_scene_value_find(bsdf, "alpha"),
+                 "%s alpha must lie in [%g, %g], got %g; a smooth one is a %s",
+                 pm_xml_attribute(bsdf, "type"), PM_ALPHA_LEAST, PM_ALPHA_MOST, material->alpha,
+                 pm_xml_attribute(bsdf, "type") + strlen("rough"));
+    }
+    static const char *const known[2] = {"beckmann", "ggx"};
+    const char *kind = pm_scene_value_text(bsdf, "distribution", known[0]);
+    bool ggx = strcmp(kind, known[1]) == 0;
+    if (!ggx && strcmp(kind, known[0]) != 0) {
+        PM_FAULT(source, pm_scene_value_find(bsdf, "distribution"),
+                 "distribution must be beckmann or ggx, got \"%.60s\"; the nearest is \"%s\"",
+                 kind, pm_nearest_word(kind, known, 2));
+    }
+    material->microfacet = ggx ? PM_MICROFACET_GGX : PM_MICROFACET_BECKMANN;
+}
+
+/// How each type is read; what transmits lies on both sides of a shape.
+static const struct bsdf_row {
+    const char *word;
+    pm_bsdf_type type;
+    void (*read)(pm_scene_file *source, const pm_xml *bsdf, pm_material *material);
+    bool rough, transmits;
+} bsdf_rows[] = {
+    {"diffuse", PM_BSDF_DIFFUSE, NULL, false, false},
+    {"dielectric", PM_BSDF_DIELECTRIC, read_glass, false, true},
+    {"thindielectric", PM_BSDF_THIN_DIELECTRIC, read_glass, false, true},
+    {"conductor", PM_BSDF_CONDUCTOR, read_metal, false, false},
+    {"roughconductor", PM_BSDF_ROUGH_CONDUCTOR, read_metal, true, false},
+    {"plastic", PM_BSDF_PLASTIC, read_plastic, false, false},
+    {"roughplastic", PM_BSDF_ROUGH_PLASTIC, read_plastic, true, false},
+    {"null", PM_BSDF_NULL, NULL, false, true},
+};
+
+/// The row of its type; NULL when the words have been found wrong already.
+static const struct bsdf_row *row_of(const pm_xml *bsdf)
+{
+    for (size_t i = 0; i < sizeof bsdf_rows / sizeof *bsdf_rows; i++) {
+        if (is_type(bsdf, bsdf_rows[i].word)) {
+            return &bsdf_rows[i];
+        }
+    }
+    return NULL;
 }
 
 static void read_bsdf(pm_scene_file *source, pm_xml *bsdf, pm_material *material)
@@ -66,19 +126,24 @@ static void read_bsdf(pm_scene_file *source, pm_xml *bsdf, pm_material *material
             PM_FAULT(source, e, "only twosided takes a bsdf inside it");
         }
     }
-    if (is_type(bsdf, "diffuse")) {
-        material->type = PM_BSDF_DIFFUSE;
-        material->reflectance = pm_scene_value_ratio(source, bsdf, "reflectance", 0.5);
-    } else if (is_type(bsdf, "dielectric")) {
-        material->type = PM_BSDF_DIELECTRIC;
-        read_dielectric(source, bsdf, material);
-    } else if (is_type(bsdf, "conductor")) {
-        material->type = PM_BSDF_CONDUCTOR;
-        read_conductor(source, bsdf, material);
+    const struct bsdf_row *row = row_of(bsdf);
+    if (row == NULL || row->type == PM_BSDF_NULL) {
+        return;
     }
-    if (material->type == PM_BSDF_DIELECTRIC || material->type == PM_BSDF_CONDUCTOR) {
-        material->specular_reflectance =
-            pm_scene_value_ratio(source, bsdf, "specular_reflectance", 1.0);
+    int before = source->faults.count;
+    material->type = row->type;
+    if (row->type == PM_BSDF_DIFFUSE) {
+        material->reflectance = pm_scene_value_ratio(source, bsdf, "reflectance", 0.5);
+        return;
+    }
+    row->read(source, bsdf, material);
+    material->specular_reflectance =
+        pm_scene_value_ratio(source, bsdf, "specular_reflectance", 1.0);
+    if (row->rough) {
+        read_roughness(source, bsdf, material);
+    }
+    if (source->faults.count == before) {
+        pm_material_prepare(material);
     }
 }
 
@@ -117,6 +182,12 @@ static int find_bsdfs(pm_scene_file *source, const pm_xml *parent, int room, pm_
     return found;
 }
 
+static bool transmits(const pm_xml *bsdf)
+{
+    const struct bsdf_row *row = row_of(bsdf);
+    return row != NULL && row->transmits;
+}
+
 /// One bsdf gives both sides; two give the front and the back.
 static void read_twosided(pm_scene_file *source, const pm_xml *twosided, int material[2])
 {
@@ -126,8 +197,7 @@ static void read_twosided(pm_scene_file *source, const pm_xml *twosided, int mat
         PM_FAULT(source, twosided, "twosided needs a bsdf inside it");
     }
     for (int i = 0; i < count; i++) {
-        if (is_type(inner[i], "dielectric") || is_type(inner[i], "null") ||
-            is_type(inner[i], "twosided")) {
+        if (transmits(inner[i]) || is_type(inner[i], "twosided")) {
             PM_FAULT(source, twosided,
                      "twosided cannot hold a %s bsdf: it has both sides itself",
                      pm_xml_attribute(inner[i], "type"));
@@ -205,6 +275,5 @@ void pm_scene_build_sides(pm_scene_file *source, const pm_xml *shape, int materi
         return;
     }
     material[0] = bsdf->index;
-    bool both = is_type(bsdf, "dielectric") || is_type(bsdf, "null");
-    material[1] = both ? bsdf->index : PM_NONE;
+    material[1] = transmits(bsdf) ? bsdf->index : PM_NONE;
 }

@@ -54,6 +54,11 @@ static const pm_word_element elements[] = {
     {                                                                                          \
         name, PM_WORD_COLOUR, false                                                            \
     }
+#define ROUGHNESS                                                                              \
+    {"alpha", PM_WORD_NUMBER, false},                                                          \
+    {                                                                                          \
+        "distribution", PM_WORD_TEXT, false                                                    \
+    }
 #define MESH                                                                                   \
     {                                                                                          \
         {"filename", PM_WORD_TEXT, true}, {"face_normals", PM_WORD_SWITCH, false}, TO_WORLD,   \
@@ -109,12 +114,38 @@ static const pm_word_plugin plugins[] = {
       COLOUR("k"),
       COLOUR("specular_reflectance")},
      false},
+    {"bsdf",
+     "thindielectric",
+     {{"int_ior", IOR, false},
+      {"ext_ior", IOR, false},
+      COLOUR("specular_reflectance"),
+      COLOUR("specular_transmittance")},
+     false},
+    {"bsdf",
+     "roughconductor",
+     {{"material", PM_WORD_TEXT, false},
+      COLOUR("eta"),
+      COLOUR("k"),
+      COLOUR("specular_reflectance"),
+      ROUGHNESS},
+     false},
+    {"bsdf",
+     "plastic",
+     {{"int_ior", IOR, false},
+      {"ext_ior", IOR, false},
+      COLOUR("diffuse_reflectance"),
+      COLOUR("specular_reflectance")},
+     false},
+    {"bsdf",
+     "roughplastic",
+     {{"int_ior", IOR, false},
+      {"ext_ior", IOR, false},
+      COLOUR("diffuse_reflectance"),
+      COLOUR("specular_reflectance"),
+      ROUGHNESS},
+     false},
     {"bsdf", "twosided", {{NULL, 0, false}}, false},
     {"bsdf", "null", {{NULL, 0, false}}, false},
-    {"bsdf", "thindielectric", LATER},
-    {"bsdf", "roughconductor", LATER},
-    {"bsdf", "plastic", LATER},
-    {"bsdf", "roughplastic", LATER},
     {"emitter",
      "point",
      {{"position", PM_WORD_TRIPLE, false}, COLOUR("intensity"), TO_WORLD},

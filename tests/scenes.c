@@ -64,6 +64,63 @@ int pm_scenes_null(pm_scenes *s)
     return add_material(s, (pm_material){.type = PM_BSDF_NULL, .id = "null"});
 }
 
+int pm_scenes_pane(pm_scenes *s, double ior)
+{
+    int pane = pm_scenes_glass(s, ior);
+    s->materials[pane].type = PM_BSDF_THIN_DIELECTRIC;
+    s->materials[pane].id = "pane";
+    return pane;
+}
+
+int pm_scenes_plastic(pm_scenes *s, pm_spectrum reflectance, double ior)
+{
+    pm_material plastic = {.type = PM_BSDF_PLASTIC,
+                           .id = "plastic",
+                           .reflectance = reflectance,
+                           .specular_reflectance = pm_gray(1.0),
+                           .int_ior = ior,
+                           .ext_ior = 1.0};
+    pm_material_prepare(&plastic);
+    return add_material(s, plastic);
+}
+
+int pm_scenes_rough_mirror(pm_scenes *s, pm_microfacet_kind kind, double alpha)
+{
+    int mirror = pm_scenes_mirror(s, pm_gray(1.0));
+    pm_material *material = &s->materials[mirror];
+    material->type = PM_BSDF_ROUGH_CONDUCTOR;
+    material->id = "rough mirror";
+    material->microfacet = kind;
+    material->alpha = alpha;
+    return mirror;
+}
+
+int pm_scenes_rough_metal(pm_scenes *s, pm_spectrum eta, pm_spectrum k, double alpha)
+{
+    int metal = pm_scenes_rough_mirror(s, PM_MICROFACET_GGX, alpha);
+    pm_material *material = &s->materials[metal];
+    material->id = "rough metal";
+    material->perfect_mirror = false;
+    material->eta = eta;
+    material->k = k;
+    return metal;
+}
+
+int pm_scenes_rough_plastic(pm_scenes *s, pm_spectrum reflectance, double ior,
+                            pm_microfacet_kind kind, double alpha)
+{
+    pm_material plastic = {.type = PM_BSDF_ROUGH_PLASTIC,
+                           .id = "rough plastic",
+                           .reflectance = reflectance,
+                           .specular_reflectance = pm_gray(1.0),
+                           .int_ior = ior,
+                           .ext_ior = 1.0,
+                           .microfacet = kind,
+                           .alpha = alpha};
+    pm_material_prepare(&plastic);
+    return add_material(s, plastic);
+}
+
 int pm_scenes_add(pm_scenes *s, pm_shape shape, int front, int back)
 {
     CHECK(s->scene.shape_count < PM_SCENES_SHAPES);

@@ -32,6 +32,14 @@ int pm_scenes_mirror(pm_scenes *s, pm_spectrum reflectance);
 int pm_scenes_glass(pm_scenes *s, double ior); // in air of index 1
 int pm_scenes_metal(pm_scenes *s, pm_spectrum eta, pm_spectrum k);
 int pm_scenes_null(pm_scenes *s);
+int pm_scenes_pane(pm_scenes *s, double ior);
+int pm_scenes_plastic(pm_scenes *s, pm_spectrum reflectance, double ior);
+
+/// Rough ones: a perfect mirror of microfacets, and a plastic with a rough coat.
+int pm_scenes_rough_mirror(pm_scenes *s, pm_microfacet_kind kind, double alpha);
+int pm_scenes_rough_metal(pm_scenes *s, pm_spectrum eta, pm_spectrum k, double alpha);
+int pm_scenes_rough_plastic(pm_scenes *s, pm_spectrum reflectance, double ior,
+                            pm_microfacet_kind kind, double alpha);
 
 /// Adds a shape with materials on the side of its normal and behind; returns its index. The
 /// scene owns what a mesh holds.

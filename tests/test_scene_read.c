@@ -135,6 +135,65 @@ static void materials(void)
     pm_scene_free(&s);
 }
 
+static void coated_materials(void)
+{
+    pm_scene s = {0};
+    CHECK_OK(pm_scene_text_read(
+        &s, "<bsdf type='thindielectric' id='a'/>"
+            "<bsdf type='plastic' id='b'/>"
+            "<bsdf type='plastic' id='c'><string name='int_ior' value='water'/>"
+            "<float name='ext_ior' value='1.1'/>"
+            "<rgb name='diffuse_reflectance' value='0.1 0.2 0.3'/>"
+            "<float name='specular_reflectance' value='0.25'/></bsdf>"
+            "<bsdf type='roughplastic' id='d'/>"
+            "<bsdf type='roughplastic' id='e'><string name='distribution' value='ggx'/>"
+            "<float name='alpha' value='0.3'/></bsdf>"));
+    CHECK(s.material_count == 5);
+    const pm_material *m = s.materials;
+    CHECK(m[0].type == PM_BSDF_THIN_DIELECTRIC);
+    CHECK_NEAR(m[0].int_ior, 1.5046, 0.0);
+    check_spectrum(m[0].specular_transmittance, 1.0, 1.0, 1.0);
+    CHECK(m[1].type == PM_BSDF_PLASTIC);
+    CHECK_NEAR(m[1].int_ior, 1.49, 0.0);
+    CHECK_NEAR(m[1].ext_ior, 1.000277, 0.0);
+    check_spectrum(m[1].reflectance, 0.5, 0.5, 0.5);
+    check_spectrum(m[1].specular_reflectance, 1.0, 1.0, 1.0);
+    CHECK(m[1].coat_mean > 0.9 && m[1].coat_inside > 0.5); // prepared
+    CHECK_NEAR(m[2].int_ior, 1.333, 0.0);
+    CHECK_NEAR(m[2].ext_ior, 1.1, 0.0);
+    check_spectrum(m[2].reflectance, 0.1, 0.2, 0.3);
+    check_spectrum(m[2].specular_reflectance, 0.25, 0.25, 0.25);
+    CHECK(m[3].type == PM_BSDF_ROUGH_PLASTIC && m[3].microfacet == PM_MICROFACET_BECKMANN);
+    CHECK_NEAR(m[3].alpha, 0.1, 0.0);
+    CHECK(m[3].coat[PM_COSINE_TABLE - 1] > 0.9);
+    CHECK(m[4].microfacet == PM_MICROFACET_GGX);
+    CHECK_NEAR(m[4].alpha, 0.3, 0.0);
+    pm_scene_free(&s);
+}
+
+static void rough_metals(void)
+{
+    pm_scene s = {0};
+    CHECK_OK(pm_scene_text_read(
+        &s, "<bsdf type='roughconductor' id='a'/>"
+            "<bsdf type='roughconductor' id='b'><string name='distribution' value='ggx'/>"
+            "<float name='alpha' value='0.0001'/><rgb name='eta' value='0.2 0.9 1.1'/>"
+            "<float name='k' value='3'/><float name='specular_reflectance' value='0.5'/></bsdf>"
+            "<bsdf type='roughconductor'><string name='material' value='none'/></bsdf>"));
+    const pm_material *m = s.materials;
+    CHECK(m[0].type == PM_BSDF_ROUGH_CONDUCTOR && m[0].perfect_mirror);
+    CHECK(m[0].microfacet == PM_MICROFACET_BECKMANN);
+    CHECK_NEAR(m[0].alpha, 0.1, 0.0);
+    check_spectrum(m[0].specular_reflectance, 1.0, 1.0, 1.0);
+    CHECK(!m[1].perfect_mirror && m[1].microfacet == PM_MICROFACET_GGX);
+    CHECK_NEAR(m[1].alpha, 1e-4, 0.0);
+    check_spectrum(m[1].eta, 0.2, 0.9, 1.1);
+    check_spectrum(m[1].k, 3.0, 3.0, 3.0);
+    check_spectrum(m[1].specular_reflectance, 0.5, 0.5, 0.5);
+    CHECK(m[2].perfect_mirror);
+    pm_scene_free(&s);
+}
+
 static void check_sides(const pm_scene *s, int shape, int front, int back)
 {
     CHECK_THAT(s->shapes[shape].material[0] == front && s->shapes[shape].material[1] == back,
@@ -146,24 +205,31 @@ static void sides(void)
 {
     pm_scene s = {0};
     CHECK_OK(pm_scene_text_read(
-        &s, "<shape type='sphere'><ref id='later'/></shape>"
-            "<shape type='sphere'><bsdf type='dielectric'/></shape>"
-            "<shape type='sphere'><bsdf type='null'/></shape>"
-            "<shape type='sphere'><bsdf type='twosided'><bsdf type='conductor'/></bsdf></shape>"
-            "<shape type='sphere'><ref id='pair'/></shape>"
-            "<shape type='sphere'/>"
-            "<shape type='sphere'/>"
-            "<bsdf type='twosided' id='pair'><ref id='later'/><bsdf type='diffuse'/></bsdf>"
-            "<bsdf type='diffuse' id='later'/>"));
-    CHECK(s.material_count == 6);
+        &s,
+        "<shape type='sphere'><ref id='later'/></shape>"
+        "<shape type='sphere'><bsdf type='dielectric'/></shape>"
+        "<shape type='sphere'><bsdf type='null'/></shape>"
+        "<shape type='sphere'><bsdf type='twosided'><bsdf type='conductor'/></bsdf></shape>"
+        "<shape type='sphere'><ref id='pair'/></shape>"
+        "<shape type='sphere'/>"
+        "<shape type='sphere'/>"
+        "<bsdf type='twosided' id='pair'><ref id='later'/><bsdf type='diffuse'/></bsdf>"
+        "<bsdf type='diffuse' id='later'/>"
+        "<shape type='sphere'><bsdf type='thindielectric'/></shape>"
+        "<shape type='sphere'><bsdf type='roughplastic'/></shape>"
+        "<shape type='sphere'><bsdf type='twosided'><bsdf type='plastic'/></bsdf></shape>"));
+    CHECK(s.material_count == 9);
     check_sides(&s, 0, 4, PM_NONE);
     check_sides(&s, 1, 0, 0);
     check_sides(&s, 2, 1, 1);
     check_sides(&s, 3, 2, 2);
     check_sides(&s, 4, 4, 3);
-    check_sides(&s, 5, 5, PM_NONE);
-    check_sides(&s, 6, 5, PM_NONE);
-    check_spectrum(s.materials[5].reflectance, 0.5, 0.5, 0.5);
+    check_sides(&s, 5, 8, PM_NONE);
+    check_sides(&s, 6, 8, PM_NONE);
+    check_sides(&s, 7, 5, 5);
+    check_sides(&s, 8, 6, PM_NONE);
+    check_sides(&s, 9, 7, 7);
+    check_spectrum(s.materials[8].reflectance, 0.5, 0.5, 0.5);
     pm_scene_free(&s);
 }
 
@@ -293,4 +359,7 @@ PM_TESTS(
     {"scene_read.9", "what has no id is called TYPE@LINE", names},
     {"scene_read.10", "our own scenes are read and give the power they promise", own_scenes},
     {"scene_read.11", "spots and the constant light have Mitsuba's defaults and their powers",
-     spots_and_skies})
+     spots_and_skies},
+    {"scene_read.12", "panes and plastics have their values and Mitsuba's defaults",
+     coated_materials},
+    {"scene_read.13", "rough metals have their values and Mitsuba's defaults", rough_metals})
