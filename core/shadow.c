@@ -1,17 +1,225 @@
-// Nothing is known of shadows yet: rays decide.
+// Chunks of CHUNK photons are sent on any thread and appended in order, so the maps do not
+// depend on how many threads there are.
+//
+// Invariant: a map holds every meeting of its light's straight rays with a surface that has a D
+// lobe, on the side that the light comes from. So around any point that the light could reach
+// if nothing stood between, photons are as dense as its unshadowed irradiance asks for.
 #include "shadow.h"
 
+#include "emit.h"
+#include "interrupt.h"
 #include "photon_map.h"
+#include "progress.h"
+#include "store.h"
 
 #include <stdlib.h>
+#include <string.h>
+
+#define CHUNK 1024u
+
+/// What all threads share while one light's map is filled.
+typedef struct {
+    const pm_intersector *world;
+    pm_emission emission;
+    pm_photon_map *map;
+    pm_progress *progress;
+    bool failed;
+    pm_status status;
+    char message[1024];
+} shadow_pass;
+
+/// What one thread works in.
+typedef struct {
+    pm_start starts[CHUNK];
+    pm_photon_map part;
+} shadow_worker;
+
+// --- one ray --------------------------------------------------------------------------------
+
+static pm_deposit deposit_at(const pm_start *start, const pm_ray *ray, const pm_hit *hit,
+                             const pm_lobes *lobes)
+{
+    return (pm_deposit){
+        .position = hit->position,
+        .direction = ray->direction,
+        .normal = lobes->normal,
+        .power = pm_gray(1.0), // what is asked is where, not how much
+        .photon = start->photon,
+        .light = start->light,
+    };
+}
+
+/// Along the photon's straight line to its end: light on the first surface, shadow on all
+/// behind it, and marks only where there is a D lobe.
+static pm_status send(const pm_intersector *world, const pm_start *start, pm_photon_map *part)
+{
+    pm_ray ray = start->ray;
+    bool lit = true;
+    pm_hit hit;
+    while (pm_closest(world, &ray, &hit)) {
+        pm_lobes lobes;
+        pm_material_lobes(world->scene, &hit, pm_vec_negate(ray.direction), 0.0, &lobes);
+        if (lobes.diffuse) {
+            pm_deposit deposit = deposit_at(start, &ray, &hit, &lobes);
+            deposit.first = lit;
+            PM_TRY(pm_store_push(part, &deposit));
+        }
+        lit = lit && lobes.passes;
+        ray = pm_hit_ray(&hit, ray.direction, 0.0, lobes.medium_beyond);
+    }
+    return PM_OK;
+}
+
+// --- one light ------------------------------------------------------------------------------
+
+static pm_status send_range(const shadow_pass *pass, shadow_worker *worker, uint64_t first,
+                            uint32_t count)
+{
+    worker->part.count = 0;
+    worker->part.refused = worker->part.clamped = worker->part.vanished = 0;
+    PM_TRY(pm_emit_photons(&pass->emission, first, count, worker->starts));
+    for (uint32_t i = 0; i < count; i++) {
+        PM_TRY(send(pass->world, &worker->starts[i], &worker->part));
+    }
+    return PM_OK;
+}
+
+/// Only one thread at a time comes here, but all of them look at `failed`.
+static void fail(shadow_pass *pass, pm_status status)
+{
+    pass->status = status;
+    strncpy(pass->message, pm_status_message(), sizeof pass->message - 1);
+#pragma omp atomic write
+    pass->failed = true;
+}
+
+static void send_chunk(shadow_pass *pass, shadow_worker *worker, uint64_t chunk)
+{
+    uint64_t first = chunk * CHUNK;
+    uint64_t left = pass->emission.count - first;
+    uint32_t count = left < CHUNK ? (uint32_t)left : CHUNK;
+    bool failed;
+#pragma omp atomic read
+    failed = pass->failed;
+    pm_status status = failed ? PM_OK : send_range(pass, worker, first, count);
+#pragma omp ordered
+    {
+        if (!pass->failed && status == PM_OK) {
+            status = pm_interrupted() ? pm_interrupt_check()
+                                      : pm_photon_map_append(pass->map, &worker->part);
+        }
+        if (!pass->failed && status != PM_OK) {
+            fail(pass, status);
+        }
+        pm_progress_add(pass->progress, count);
+    }
+    if (status != PM_OK) {
+        pm_status_clear(); // this thread's next pass tells its own
+    }
+}
+
+static void send_chunks(shadow_pass *pass)
+{
+    int64_t chunks = (int64_t)((pass->emission.count + CHUNK - 1) / CHUNK);
+#pragma omp parallel
+    {
+        shadow_worker *worker = calloc(1, sizeof *worker);
+        if (worker == NULL) {
+#pragma omp critical
+            fail(pass, PM_FAIL(PM_ENOMEM, "no memory to send shadow photons in"));
+        }
+#pragma omp for ordered schedule(dynamic, 1)
+        for (int64_t chunk = 0; chunk < chunks; chunk++) {
+            if (worker != NULL) {
+                send_chunk(pass, worker, (uint64_t)chunk);
+            }
+        }
+        if (worker != NULL) {
+            pm_photon_map_free(&worker->part);
+        }
+        free(worker);
+    }
+}
+
+/// Fills and balances the map of the one light that has a share. Its number is the pass, so
+/// that lights do not repeat each other's random numbers.
+static pm_status make_map(shadow_pass *pass)
+{
+    send_chunks(pass);
+    if (pass->status != PM_OK) {
+        pm_status_clear();
+        return pm_status_fail(pass->status, "%s", pass->message);
+    }
+    pm_photon_map_trim(pass->map);
+    PM_TRY(pm_store_scale(pass->map, pass->emission.count));
+    return pm_balance_build(pass->map);
+}
+
+// --- all lights -----------------------------------------------------------------------------
+
+/// Whether the light has a direction or a place from which shadows fall, and any power.
+static bool throws_shadow(const pm_light *light)
+{
+    return light->type != PM_LIGHT_CONSTANT && !pm_spectrum_is_black(light->flux);
+}
+
+static uint64_t count_throwing(const pm_scene *scene)
+{
+    uint64_t count = 0;
+    for (int i = 0; i < scene->light_count; i++) {
+        count += throws_shadow(&scene->lights[i]);
+    }
+    return count;
+}
+
+static pm_status make_maps(const pm_intersector *world, uint32_t seed, uint64_t count,
+                           uint64_t *share, pm_shadow_maps *maps)
+{
+    const pm_scene *scene = world->scene;
+    uint64_t left = count_throwing(scene);
+    pm_progress progress = pm_progress_begin("shadows", left == 0 ? 0 : count);
+    pm_status status = PM_OK;
+    for (int i = 0; i < scene->light_count && status == PM_OK; i++) {
+        maps->map[i] = (pm_photon_map){.kind = PM_MAP_GLOBAL, .scale = 1.0};
+        if (!throws_shadow(&scene->lights[i])) {
+            continue;
+        }
+        share[i] = count / left; // what is left, evenly among the lights that are left
+        count -= share[i];
+        left--;
+        if (share[i] > 0) {
+            pm_rng_source source = {seed, PM_STREAM_SHADOW, (uint32_t)i};
+            shadow_pass pass = {
+                .world = world,
+                .emission = {scene, source, share[i], share, NULL},
+                .map = &maps->map[i],
+                .progress = &progress,
+            };
+            status = make_map(&pass);
+        }
+        share[i] = 0;
+    }
+    pm_progress_end(&progress);
+    return status;
+}
 
 pm_status pm_shadow_make(const pm_intersector *world, uint32_t seed, uint64_t count,
                          pm_shadow_maps *maps)
 {
-    (void)world;
-    (void)seed;
-    (void)count;
-    *maps = (pm_shadow_maps){0};
+    size_t lights = (size_t)world->scene->light_count;
+    pm_shadow_maps made = {calloc(lights + 1, sizeof *made.map), world->scene->light_count};
+    uint64_t *share = calloc(lights + 1, sizeof *share);
+    pm_status status =
+        made.map == NULL || share == NULL
+            ? PM_FAIL(PM_ENOMEM, "no memory for the shadow maps of %d lights", made.light_count)
+            : make_maps(world, seed, count, share, &made);
+    free(share);
+    if (status != PM_OK) {
+        made.light_count = made.map == NULL ? 0 : made.light_count;
+        pm_shadow_free(&made);
+        return status;
+    }
+    *maps = made;
     return PM_OK;
 }
 
@@ -24,12 +232,30 @@ void pm_shadow_free(pm_shadow_maps *maps)
     *maps = (pm_shadow_maps){0};
 }
 
+// --- asking ---------------------------------------------------------------------------------
+
 pm_shadow_answer pm_shadow_ask(const pm_shadow_maps *maps, int light,
                                const pm_estimate_point *point, pm_neighbour *scratch)
 {
-    (void)maps;
-    (void)light;
-    (void)point;
-    (void)scratch;
-    return PM_SHADOW_UNSURE;
+    const pm_photon_map *map = &maps->map[light];
+    pm_estimate_settings settings = pm_estimate_defaults();
+    pm_estimate_query query = {*point, settings.shape, settings.flatness, 0, 0};
+    pm_search search = {
+        .at = point->at,
+        .k = PM_SHADOW_K,
+        .radius2 = HUGE_VAL,
+        .accept = pm_estimate_accept,
+        .context = &query,
+    };
+    uint32_t found;
+    if (map->count < PM_SHADOW_K ||
+        pm_balance_nearest(map, &search, scratch, &found, NULL) != PM_OK ||
+        found < PM_SHADOW_K) {
+        return PM_SHADOW_UNSURE;
+    }
+    uint32_t lit = 0;
+    for (uint32_t i = 0; i < found; i++) {
+        lit += (map->photons[scratch[i].index].flags & PM_PHOTON_FIRST) != 0;
+    }
+    return lit == found ? PM_SHADOW_LIT : lit == 0 ? PM_SHADOW_DARK : PM_SHADOW_UNSURE;
 }
