@@ -9,17 +9,26 @@ typedef struct {
     pm_ray ray;
     pm_spectrum weight; // factor on radiance found at its end
     uint32_t specular;  // S events so far
-    pm_vec3 from;       // where it began
+    pm_vec3 from;       // the last of them, or where the path began
+    double pdf;         // with which that event drew the ray, as in pm_vertex
 } pm_path;
 
-/// The next surface on the ray, null ones too.
-static bool meet(const pm_compose *compose, const pm_ray *ray, pm_vertex *at)
+static pm_path path_along(const pm_ray *ray)
 {
+    return (pm_path){.ray = *ray, .weight = pm_gray(1.0), .from = ray->origin};
+}
+
+/// The next surface on the path, null ones too.
+static bool meet(const pm_compose *compose, const pm_path *path, pm_vertex *at)
+{
+    const pm_ray *ray = &path->ray;
     if (!pm_closest(compose->world, ray, &at->hit)) {
         return false;
     }
     pm_material_lobes(compose->world->scene, &at->hit, pm_vec_negate(ray->direction),
                       ray->wavelength, &at->lobes);
+    at->from = path->from;
+    at->pdf = path->pdf;
     return true;
 }
 
@@ -29,20 +38,47 @@ static pm_ray beyond(const pm_ray *ray, const pm_vertex *at)
     return pm_hit_ray(&at->hit, ray->direction, ray->wavelength, at->lobes.medium_beyond);
 }
 
+/// Where light found in `layer` belongs: once the path has had an S event, to specular.
+static pm_layer layer_on(const pm_path *path, pm_layer layer)
+{
+    return path->specular > 0 ? PM_LAYER_SPECULAR : layer;
+}
+
+static void add(const pm_path *path, pm_layer into, pm_spectrum radiance, pm_eye *eye)
+{
+    eye->layer[into] =
+        pm_spectrum_add(eye->layer[into], pm_spectrum_mul(path->weight, radiance));
+}
+
 typedef pm_status (*pm_source_fn)(void *context, const pm_vertex *at, pm_spectrum *radiance);
 
-/// Adds what a source says to `layer`, or to specular once the path has had an S event.
 static pm_status ask(const pm_compose *compose, pm_source_fn source, const pm_vertex *at,
                      const pm_path *path, pm_layer layer, pm_eye *eye)
 {
-    pm_layer into = path->specular > 0 ? PM_LAYER_SPECULAR : layer;
+    pm_layer into = layer_on(path, layer);
     if (source == NULL || !compose->wanted[into]) {
         return PM_OK;
     }
     pm_spectrum radiance = pm_gray(0.0);
     PM_TRY(source(compose->ask.context, at, &radiance));
-    eye->layer[into] =
-        pm_spectrum_add(eye->layer[into], pm_spectrum_mul(path->weight, radiance));
+    add(path, into, radiance, eye);
+    return PM_OK;
+}
+
+/// What shines where the path meets nothing. Asked for the mask's sake even where its layer is
+/// not wanted.
+static pm_status ask_sky(const pm_compose *compose, const pm_path *path, pm_eye *eye)
+{
+    pm_layer into = layer_on(path, PM_LAYER_EMISSION);
+    if (compose->ask.sky == NULL) {
+        return PM_OK;
+    }
+    pm_spectrum radiance = pm_gray(0.0);
+    PM_TRY(compose->ask.sky(compose->ask.context, &path->ray, &radiance));
+    eye->emitter = eye->emitter || !pm_spectrum_is_black(radiance);
+    if (compose->wanted[into]) {
+        add(path, into, radiance, eye);
+    }
     return PM_OK;
 }
 
@@ -78,7 +114,7 @@ static bool emits_towards(const pm_scene *scene, const pm_vertex *at)
 static pm_status next_vertex(const pm_compose *compose, pm_path *path, pm_vertex *at,
                              pm_eye *eye, bool *found)
 {
-    while ((*found = meet(compose, &path->ray, at))) {
+    while ((*found = meet(compose, path, at))) {
         if (emits_towards(compose->world->scene, at)) {
             eye->emitter = true;
             PM_TRY(ask(compose, compose->ask.emitted, at, path, PM_LAYER_EMISSION, eye));
@@ -88,7 +124,7 @@ static pm_status next_vertex(const pm_compose *compose, pm_path *path, pm_vertex
         }
         path->ray = beyond(&path->ray, at);
     }
-    return PM_OK;
+    return ask_sky(compose, path, eye);
 }
 
 /// The S lobes of a vertex, in the order of its lobes; writes their places there.
@@ -127,8 +163,28 @@ static pm_path turned(const pm_path *path, const pm_vertex *at, int which, pm_sp
         .ray = pm_hit_ray(&at->hit, scatter.wo, path->ray.wavelength, scatter.medium),
         .weight = weight,
         .specular = path->specular + 1,
-        .from = path->from,
+        .from = at->hit.position,
+        .pdf = scatter.pdf,
     };
+}
+
+/// Whether an S lobe there is rough: it shows lamps by chance only, and they are asked, too.
+static bool glints(const pm_lobes *lobes)
+{
+    for (int i = 0; i < lobes->count; i++) {
+        if (lobes->lobe[i].specular && lobes->lobe[i].type == PM_LOBE_GLOSSY) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// Lamps shown by the S event that the path is about to have.
+static pm_status ask_glint(const pm_compose *compose, const pm_vertex *at, const pm_path *path,
+                           pm_eye *eye)
+{
+    pm_source_fn source = glints(&at->lobes) ? compose->ask.glint : NULL;
+    return ask(compose, source, at, path, PM_LAYER_SPECULAR, eye);
 }
 
 static pm_status follow(const pm_compose *compose, pm_path path, pm_vertex at, uint64_t index,
@@ -168,7 +224,8 @@ static pm_status choose_lobe(const pm_compose *compose, pm_path *path, const pm_
 static pm_status follow(const pm_compose *compose, pm_path path, pm_vertex at, uint64_t index,
                         pm_eye *eye)
 {
-    for (bool goes_on = true; goes_on;) {
+    // A rough lobe may have sent the path into the surface: with weight 0, to its end.
+    for (bool goes_on = true; goes_on && !pm_spectrum_is_black(path.weight);) {
         bool found;
         PM_TRY(next_vertex(compose, &path, &at, eye, &found));
         if (!found) {
@@ -180,6 +237,7 @@ static pm_status follow(const pm_compose *compose, pm_path path, pm_vertex at, u
         if (!may_turn(compose, &path, &at, &eye->cut)) {
             return PM_OK;
         }
+        PM_TRY(ask_glint(compose, &at, &path, eye));
         pm_rng rng = pm_rng_at(&compose->source, index, at.vertex);
         if (path.specular < compose->splits) {
             return follow_every_lobe(compose, &path, &at, index, &rng, eye);
@@ -193,25 +251,24 @@ pm_status pm_compose_eye(const pm_compose *compose, const pm_ray *ray, uint64_t 
                          uint32_t sample, uint64_t index, pm_eye *eye)
 {
     pm_vertex at = {.pixel = pixel, .sample = sample};
-    pm_path path = {.ray = *ray, .weight = pm_gray(1.0), .from = ray->origin};
-    return follow(compose, path, at, index, eye);
+    return follow(compose, path_along(ray), at, index, eye);
 }
 
 pm_status pm_compose_gather(const pm_compose *compose, const pm_ray *ray, const pm_vertex *at,
                             pm_rng *rng, pm_spectrum *radiance, uint64_t *cut)
 {
     *radiance = pm_gray(0.0);
-    pm_path path = {.ray = *ray, .weight = pm_gray(1.0), .from = ray->origin};
+    pm_path path = path_along(ray);
     pm_vertex end = *at;
     bool goes_on = true;
-    while (goes_on && meet(compose, &path.ray, &end)) {
+    while (goes_on && !pm_spectrum_is_black(path.weight) && meet(compose, &path, &end)) {
         if (end.lobes.passes) {
             path.ray = beyond(&path.ray, &end);
             continue;
         }
         if (end.lobes.diffuse && compose->ask.global != NULL) {
             pm_spectrum leaving = pm_gray(0.0);
-            PM_TRY(compose->ask.global(compose->ask.context, &end, &leaving));
+            PM_TRY(compose->ask.global(compose->ask.context, &end, rng, &leaving));
             *radiance = pm_spectrum_add(*radiance, pm_spectrum_mul(path.weight, leaving));
         }
         goes_on = may_turn(compose, &path, &end, cut);

@@ -37,8 +37,9 @@ typedef struct {
     pm_status (*direct)(void *context, const pm_vertex *at, pm_spectrum *radiance);  // LD
     pm_status (*caustic)(void *context, const pm_vertex *at, pm_spectrum *radiance); // LS+D
     pm_status (*indirect)(void *context, const pm_vertex *at,
-                          pm_spectrum *radiance);                                   // the rest
-    pm_status (*global)(void *context, const pm_vertex *at, pm_spectrum *radiance); // all D
+                          pm_spectrum *radiance); // the rest
+    /// All of it by D lobes, at the end of a gather ray; may draw on from that ray's `rng`.
+    pm_status (*global)(void *context, const pm_vertex *at, pm_rng *rng, pm_spectrum *radiance);
 } pm_compose_sources;
 
 typedef struct {
@@ -71,11 +72,11 @@ pm_status pm_compose_eye(const pm_compose *compose, const pm_ray *ray, uint64_t 
 
 /// What a gather ray adds: at a diffuse surface everything that leaves it, by the global map.
 ///
-/// 0 from emitters, met directly (direct light has them) or through S events (the caustic map
-/// has them); S events are followed to a diffuse surface.
+/// 0 from emitters and the sky, met directly (direct light has them) or through S events (the
+/// caustic map has them); S events are followed to a diffuse surface.
 ///
-/// @param rng       drawn from at S events
 /// @param at        pixel, sample and vertex that the ray belongs to
+/// @param rng       drawn from at S events, and by the global map's source
 /// @param radiance  [out] arriving along the ray
 /// @param cut       [in, out] counts rays ended by max_specular
 pm_status pm_compose_gather(const pm_compose *compose, const pm_ray *ray, const pm_vertex *at,

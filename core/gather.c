@@ -2,26 +2,35 @@
 // not on the sample, so that all samples of a pixel together look around evenly.
 #include "gather.h"
 
-#include "direct.h"
+#include "irradiance.h"
 #include "lattice.h"
 #include "light.h"
+#include "lookup.h"
 
 #include <stddef.h>
 
 // Bounce numbers of the camera stream; eye paths use small ones.
-#define PLACE_LATTICE 0x80000000u
+#define PLACE_LATTICE 0x80000000u // these two by pixel, the others by sample
 #define PLACE_GATHER 0x40000000u
+#define PLACE_DIRECT 0x20000000u
+#define PLACE_GLINT 0x30000000u
 
 /// What a lattice's shift is for.
-enum { FOR_LIGHTS, FOR_GATHER };
+enum { FOR_LIGHTS, FOR_GATHER, FOR_GLINT };
 
 static void lattice_shift(const pm_gather *gather, const pm_vertex *at, uint32_t purpose,
                           double shift[2])
 {
-    uint32_t place = PLACE_LATTICE | at->vertex << 1 | purpose;
+    uint32_t place = PLACE_LATTICE | at->vertex << 2 | purpose;
     pm_rng rng = pm_rng_at(&gather->compose->source, at->pixel, place);
     shift[0] = pm_rng_draw(&rng);
     shift[1] = pm_rng_draw(&rng);
+}
+
+static pm_rng sample_rng(const pm_gather *gather, const pm_vertex *at, uint32_t place)
+{
+    uint64_t index = at->pixel * gather->settings.spp + at->sample;
+    return pm_rng_at(&gather->compose->source, index, place);
 }
 
 static uint32_t per_sample(uint32_t per_pixel, uint32_t spp)
@@ -29,113 +38,282 @@ static uint32_t per_sample(uint32_t per_pixel, uint32_t spp)
     return (per_pixel + spp - 1) / spp;
 }
 
+// --- lamps and shadow rays -------------------------------------------------------------------
+
+/// All of it where only this path can meet the lamp; else the share that drawing a direction
+/// has beside drawing a point on the lamp.
 static pm_status ask_emitted(void *context, const pm_vertex *at, pm_spectrum *radiance)
 {
     const pm_gather *gather = context;
-    *radiance = pm_light_emitted(gather->compose->world->scene, &at->hit, at->lobes.wi);
+    const pm_scene *scene = gather->compose->world->scene;
+    *radiance = pm_light_emitted(scene, &at->hit, at->lobes.wi);
+    if (at->pdf > 0.0) {
+        double other = pm_light_pdf(scene, &at->hit, at->from, pm_vec_negate(at->lobes.wi));
+        *radiance = pm_spectrum_scale(*radiance, pm_direct_weight(at->pdf, other));
+    }
     return PM_OK;
+}
+
+static pm_status ask_sky(void *context, const pm_ray *ray, pm_spectrum *radiance)
+{
+    const pm_gather *gather = context;
+    (void)ray; // the same all around
+    *radiance = pm_light_sky(gather->compose->world->scene);
+    return PM_OK;
+}
+
+static pm_direct_query query_of(const pm_gather *gather)
+{
+    return (pm_direct_query){
+        .world = gather->compose->world,
+        .samples = 1,
+        .step = 1,
+        .shadows = gather->shadows,
+        .scratch = gather->scratch,
+    };
+}
+
+/// The query of one eye sample, its light points shared out among all samples of the pixel.
+static pm_direct_query share_of(const pm_gather *gather, const pm_vertex *at, uint32_t purpose,
+                                uint32_t place)
+{
+    pm_direct_query query = query_of(gather);
+    query.samples = per_sample(gather->settings.light_samples, gather->settings.spp);
+    query.first = at->sample;
+    query.step = gather->settings.spp;
+    query.rng = sample_rng(gather, at, place | at->vertex);
+    lattice_shift(gather, at, purpose, query.shift);
+    return query;
+}
+
+static void count_rays(pm_gather *gather, const pm_direct_query *query)
+{
+    gather->shadow_rays += query->rays;
+    gather->shadow_spared += query->spared;
 }
 
 static pm_status ask_direct(void *context, const pm_vertex *at, pm_spectrum *radiance)
 {
     pm_gather *gather = context;
-    pm_direct_query query = {
-        .world = gather->compose->world,
-        .samples = per_sample(gather->settings.light_samples, gather->settings.spp),
-        .first = at->sample,
-        .step = gather->settings.spp,
-    };
-    lattice_shift(gather, at, FOR_LIGHTS, query.shift);
+    pm_direct_query query = share_of(gather, at, FOR_LIGHTS, PLACE_DIRECT);
     *radiance = pm_direct(&query, &at->hit, &at->lobes);
-    gather->shadow_rays += query.rays;
+    count_rays(gather, &query);
     return PM_OK;
 }
 
-static pm_status look_up(pm_gather *gather, pm_map_kind kind, uint16_t skip,
-                         const pm_vertex *at, pm_estimate *found)
+static pm_status ask_glint(void *context, const pm_vertex *at, pm_spectrum *radiance)
 {
-    pm_estimate_settings settings = gather->settings.estimate;
-    settings.skip = skip;
-    pm_estimate_point point = {at->hit.position, at->lobes.normal};
-    return pm_estimate_radiance(gather->map[kind], &settings, &point, &at->lobes,
-                                gather->scratch, found);
-}
-
-static pm_status look_up_global(pm_gather *gather, uint16_t skip, const pm_vertex *at,
-                                pm_spectrum *radiance)
-{
-    pm_estimate found;
-    PM_TRY(look_up(gather, PM_MAP_GLOBAL, skip, at, &found));
-    gather->radius_sum += found.radius;
-    gather->found_sum += found.found;
-    gather->lookups++;
-    *radiance = found.value;
+    pm_gather *gather = context;
+    pm_direct_query query = share_of(gather, at, FOR_GLINT, PLACE_GLINT);
+    *radiance = pm_direct_glint(&query, &at->hit, &at->lobes);
+    count_rays(gather, &query);
     return PM_OK;
 }
+
+// --- maps ------------------------------------------------------------------------------------
 
 static pm_status ask_caustic(void *context, const pm_vertex *at, pm_spectrum *radiance)
 {
-    pm_estimate found;
-    PM_TRY(look_up(context, PM_MAP_CAUSTIC, 0, at, &found));
-    *radiance = found.value;
+    return pm_lookup_caustic(context, at, radiance);
+}
+
+static pm_status ask_caustic_marked(void *context, const pm_vertex *at, pm_spectrum *radiance)
+{
+    return pm_lookup_marked(context, at, HUGE_VAL, radiance);
+}
+
+static pm_status ask_indirect_seen(void *context, const pm_vertex *at, pm_spectrum *radiance)
+{
+    return pm_lookup_indirect(context, at, radiance);
+}
+
+// --- final gather ----------------------------------------------------------------------------
+
+/// A direction to look in, and the factor on the radiance that comes from there.
+typedef struct {
+    pm_vec3 wo;
+    pm_spectrum response;
+} look;
+
+/// Sum of the mean albedos of the D lobes.
+static double diffuse_albedo(const pm_lobes *lobes)
+{
+    double sum = 0.0;
+    for (int i = 0; i < lobes->count; i++) {
+        sum += lobes->lobe[i].specular ? 0.0 : pm_spectrum_mean(lobes->lobe[i].albedo);
+    }
+    return sum;
+}
+
+/// The D lobe that `share`, in [0, sum of their mean albedos), falls into.
+static int diffuse_lobe(const pm_lobes *lobes, double share)
+{
+    int last = 0;
+    for (int i = 0; i < lobes->count; i++) {
+        double albedo = pm_spectrum_mean(lobes->lobe[i].albedo);
+        if (lobes->lobe[i].specular || albedo == 0.0) {
+            continue;
+        }
+        last = i;
+        if (share < albedo) {
+            break;
+        }
+        share -= albedo;
+    }
+    return last;
+}
+
+/// Drawn by a D lobe, itself drawn by its albedo.
+static look look_by_lobe(const pm_lobes *lobes, pm_rng *rng)
+{
+    double sum = diffuse_albedo(lobes);
+    double share = sum * pm_rng_draw(rng);
+    int which = diffuse_lobe(lobes, share);
+    pm_spectrum albedo = lobes->lobe[which].albedo;
+    pm_scatter scatter;
+    pm_material_sample(lobes, which, rng, &scatter);
+    pm_spectrum response = pm_spectrum_scale(albedo, sum / pm_spectrum_mean(albedo));
+    return (look){scatter.wo, pm_spectrum_mul(response, scatter.weight)};
+}
+
+/// Distributed by the cosine: L = mean of f pi L_i.
+static look look_by_cosine(const pm_lobes *lobes, const double u[2])
+{
+    pm_frame frame = pm_frame_around(lobes->normal);
+    double radius = sqrt(u[0]);
+    double phi = 2.0 * PM_PI * u[1];
+    pm_vec3 local = pm_vec(radius * cos(phi), radius * sin(phi), sqrt(1.0 - u[0]));
+    pm_vec3 wo = pm_frame_to_world(&frame, local);
+    return (look){wo, pm_spectrum_scale(pm_material_evaluate(lobes, wo), PM_PI)};
+}
+
+/// What one ray brings to a vertex.
+static pm_status gather_ray(const pm_compose *compose, const pm_vertex *at, const look *along,
+                            pm_rng *rng, pm_spectrum *radiance, uint64_t *cut)
+{
+    *radiance = pm_gray(0.0);
+    if (pm_spectrum_is_black(along->response)) {
+        return PM_OK;
+    }
+    pm_ray ray = pm_hit_ray(&at->hit, along->wo, 0.0, at->lobes.medium_here);
+    pm_spectrum arriving;
+    PM_TRY(pm_compose_gather(compose, &ray, at, rng, &arriving, cut));
+    *radiance = pm_spectrum_mul(along->response, arriving);
     return PM_OK;
 }
 
-static pm_status ask_global(void *context, const pm_vertex *at, pm_spectrum *radiance)
-{
-    return look_up_global(context, 0, at, radiance);
-}
-
-/// The global map seen directly: without what shadow rays and the caustic map bring.
-static pm_status ask_indirect_seen(void *context, const pm_vertex *at, pm_spectrum *radiance)
-{
-    return look_up_global(context, PM_PHOTON_FIRST | PM_PHOTON_CAUSTIC, at, radiance);
-}
-
-/// L = mean over cosine-distributed directions of f pi L_i.
+/// Where Lambert's law holds directions come from a lattice; else each lobe knows its own best.
 static pm_status ask_indirect_gathered(void *context, const pm_vertex *at,
                                        pm_spectrum *radiance)
 {
     pm_gather *gather = context;
     uint32_t spp = gather->settings.spp;
     uint32_t rays = per_sample(gather->settings.rays, spp);
+    bool lambertian = pm_material_is_lambertian(&at->lobes);
+    *radiance = pm_gray(0.0);
+    if (diffuse_albedo(&at->lobes) == 0.0) {
+        return PM_OK;
+    }
     double shift[2];
     lattice_shift(gather, at, FOR_GATHER, shift);
-    pm_frame frame = pm_frame_around(at->lobes.normal);
-    pm_spectrum sum = pm_gray(0.0);
     for (uint32_t i = 0; i < rays; i++) {
         double u[2];
         pm_lattice_point(shift, at->sample + spp * i, rays * spp, u);
-        double radius = sqrt(u[0]);
-        double phi = 2.0 * PM_PI * u[1];
-        pm_vec3 local = pm_vec(radius * cos(phi), radius * sin(phi), sqrt(1.0 - u[0]));
-        pm_vec3 wo = pm_frame_to_world(&frame, local);
-
-        pm_ray ray = pm_hit_ray(&at->hit, wo, 0.0, at->lobes.medium_here);
-        uint32_t place = PLACE_GATHER + at->vertex * rays + i;
-        pm_rng rng = pm_rng_at(&gather->compose->source, at->pixel * spp + at->sample, place);
-        pm_spectrum arriving;
-        PM_TRY(pm_compose_gather(gather->compose, &ray, at, &rng, &arriving, &gather->cut));
-        pm_spectrum response = pm_spectrum_scale(pm_material_evaluate(&at->lobes, wo), PM_PI);
-        sum = pm_spectrum_add(sum, pm_spectrum_mul(response, arriving));
+        pm_rng rng = sample_rng(gather, at, PLACE_GATHER + at->vertex * rays + i);
+        look along =
+            lambertian ? look_by_cosine(&at->lobes, u) : look_by_lobe(&at->lobes, &rng);
+        pm_spectrum one;
+        PM_TRY(gather_ray(gather->compose, at, &along, &rng, &one, &gather->cut));
+        *radiance = pm_spectrum_add(*radiance, one);
     }
-    *radiance = pm_spectrum_scale(sum, 1.0 / rays);
+    *radiance = pm_spectrum_scale(*radiance, 1.0 / rays);
+    return PM_OK;
+}
+
+// --- ends of gather rays ---------------------------------------------------------------------
+
+static pm_status ask_global(void *context, const pm_vertex *at, pm_rng *rng,
+                            pm_spectrum *radiance)
+{
+    (void)rng;
+    pm_estimate found;
+    PM_TRY(pm_lookup_global(context, at, &found));
+    *radiance = found.value;
+    return PM_OK;
+}
+
+/// LD at the near surface, one shadow ray for each light.
+static pm_spectrum near_direct(pm_gather *gather, const pm_vertex *at, pm_rng *rng)
+{
+    pm_direct_query query = query_of(gather);
+    query.shift[0] = pm_rng_draw(rng);
+    query.shift[1] = pm_rng_draw(rng);
+    query.rng = *rng;
+    pm_spectrum radiance = pm_direct(&query, &at->hit, &at->lobes);
+    *rng = query.rng;
+    count_rays(gather, &query);
+    return radiance;
+}
+
+/// All paths but LD and LS+D at the near surface: by one ray, whose own end is looked up
+/// plainly.
+static pm_status near_indirect(pm_gather *gather, const pm_vertex *at, pm_rng *rng,
+                               pm_spectrum *radiance)
+{
+    *radiance = pm_gray(0.0);
+    if (diffuse_albedo(&at->lobes) == 0.0) {
+        return PM_OK;
+    }
+    pm_compose last = *gather->compose;
+    last.ask.global = ask_global;
+    look along = look_by_lobe(&at->lobes, rng);
+    return gather_ray(&last, at, &along, rng, radiance, &gather->cut);
+}
+
+/// The lookup that a gather ray ends with, and what replaces it on a surface too near for it.
+static pm_status ask_global_or_near(void *context, const pm_vertex *at, pm_rng *rng,
+                                    pm_spectrum *radiance)
+{
+    pm_gather *gather = context;
+    pm_estimate found;
+    PM_TRY(pm_lookup_global(gather, at, &found));
+    double leg = pm_vec_length(pm_vec_sub(at->hit.position, at->from));
+    if (leg >= found.radius) {
+        *radiance = found.value;
+        return PM_OK;
+    }
+    gather->near++;
+    pm_spectrum caustic;
+    pm_spectrum indirect;
+    pm_spectrum direct = near_direct(gather, at, rng);
+    PM_TRY(pm_lookup_marked(gather, at, found.radius, &caustic));
+    PM_TRY(near_indirect(gather, at, rng, &indirect));
+    *radiance = pm_spectrum_add(direct, pm_spectrum_add(caustic, indirect));
     return PM_OK;
 }
 
 void pm_gather_sources(pm_gather *gather, pm_compose *compose)
 {
     bool has_global = gather->map[PM_MAP_GLOBAL] != NULL;
+    bool has_caustic = gather->map[PM_MAP_CAUSTIC] != NULL;
+    bool marked = gather->settings.caustics_global;
     bool gathers = gather->settings.rays > 0;
     gather->compose = compose;
+    if (gather->irradiance != NULL) {
+        gather->irradiance_reach = pm_irradiance_reach(gather->irradiance);
+    }
     compose->ask = (pm_compose_sources){
         .context = gather,
         .emitted = ask_emitted,
+        .sky = ask_sky,
+        .glint = ask_glint,
         .direct = ask_direct,
-        .caustic = gather->map[PM_MAP_CAUSTIC] != NULL ? ask_caustic : NULL,
+        .caustic = !marked && has_caustic                   ? ask_caustic
+                   : marked && pm_lookup_has_marked(gather) ? ask_caustic_marked
+                                                            : NULL,
         .indirect = !has_global ? NULL
                     : gathers   ? ask_indirect_gathered
                                 : ask_indirect_seen,
-        .global = has_global ? ask_global : NULL,
+        .global = has_global ? ask_global_or_near : NULL,
     };
 }

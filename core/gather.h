@@ -1,5 +1,11 @@
-// The sources of light that the picture is composed from: shadow rays, the maps, the final
-// gather. One pm_gather a thread; the maps behind it are shared and only read.
+// The sources of light that the picture is composed from: lamps, shadow rays, the maps
+// (lookup.h), the final gather. One pm_gather a thread; the maps behind it are shared and only
+// read.
+//
+// A gather ray that meets a surface nearer than the reach of the estimate there would see the
+// disc hang over the corner between the two. It goes on one bounce instead: direct light by
+// shadow rays, caustics by the global map, the rest from where one more ray ends.
+// @source Jensen 2001, ch. 9
 #ifndef PM_GATHER_H
 #define PM_GATHER_H
 
@@ -23,6 +29,7 @@ typedef struct {
     const pm_photon_map *irradiance; // at places of the global map (irradiance.h), or NULL
     const pm_shadow_maps *shadows;   // or NULL
     pm_neighbour *scratch;           // settings.estimate.k entries, at least PM_SHADOW_K
+    double irradiance_reach;         // of these places; set by pm_gather_sources()
     // what the estimates in the global map used, summed since the user set them to 0; and what
     // was cut
     double radius_sum;
@@ -34,8 +41,9 @@ typedef struct {
     uint64_t shadow_rays, shadow_spared; // as in pm_direct_query
 } pm_gather;
 
-/// Points compose->ask at `gather` and the maps that it has.
-/// Indirect light exists when there is a global map, caustics when there is a caustic map.
+/// Points compose->ask at `gather` and the maps that it has. To be called when these are there.
+/// Indirect light exists when there is a global map, caustics when there is a caustic map, or,
+/// with `caustics_global`, a global map that holds some.
 void pm_gather_sources(pm_gather *gather, pm_compose *compose);
 
 #endif

@@ -33,9 +33,11 @@ double pm_irradiance_reach(const pm_photon_map *places);
 ///
 /// @param settings  of the estimates: shape and flatness of their discs
 /// @param reach     [m] from pm_irradiance_reach()
-/// @param found     [out] that place's estimate
-/// @return false, and nothing written, when there is none
-bool pm_irradiance_find(const pm_photon_map *places, const pm_estimate_settings *settings,
-                        double reach, const pm_estimate_point *point, pm_estimate *found);
+/// @param covered   [out] whether there is such a place
+/// @param found     [out] its estimate; untouched unless covered
+/// @return PM_EINPUT as pm_balance_nearest()
+pm_status pm_irradiance_find(const pm_photon_map *places, const pm_estimate_settings *settings,
+                             double reach, const pm_estimate_point *point, bool *covered,
+                             pm_estimate *found);
 
 #endif

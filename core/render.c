@@ -31,6 +31,12 @@ typedef struct {
     uint64_t lookups;
 } pm_eye_worker;
 
+static uint32_t scratch_size(const pm_render_settings *settings)
+{
+    uint32_t k = settings->light.estimate.k;
+    return k > PM_SHADOW_K ? k : PM_SHADOW_K;
+}
+
 static void choose_layers(const pm_render_settings *settings, bool wanted[PM_LAYER_COUNT])
 {
     for (int layer = 0; layer < PM_LAYER_COUNT; layer++) {
@@ -48,9 +54,12 @@ static void worker_set_up(const pm_eye_pass *pass, pm_eye_worker *worker)
     worker->compose.max_specular =
         pm_caps_of(pass->world->scene, settings->max_bounces).specular;
     choose_layers(settings, worker->compose.wanted);
+    const pm_render_maps *maps = pass->maps;
     worker->gather.settings = settings->light;
+    worker->gather.irradiance = maps->irradiance.count > 0 ? &maps->irradiance : NULL;
+    worker->gather.shadows = maps->shadows.light_count > 0 ? &maps->shadows : NULL;
     for (int kind = 0; kind < PM_MAP_COUNT; kind++) {
-        worker->gather.map[kind] = pass->maps->has[kind] ? &pass->maps->map[kind] : NULL;
+        worker->gather.map[kind] = maps->has[kind] ? &maps->map[kind] : NULL;
     }
     pm_gather_sources(&worker->gather, &worker->compose);
 }
@@ -58,14 +67,14 @@ static void worker_set_up(const pm_eye_pass *pass, pm_eye_worker *worker)
 static pm_status worker_begin(const void *context, void **out)
 {
     const pm_eye_pass *pass = context;
-    uint32_t k = pass->settings->light.estimate.k;
+    uint32_t entries = scratch_size(pass->settings);
     pm_eye_worker *worker = calloc(1, sizeof *worker);
     *out = worker;
     if (worker != NULL) {
-        worker->gather.scratch = calloc(k, sizeof *worker->gather.scratch);
+        worker->gather.scratch = calloc(entries, sizeof *worker->gather.scratch);
     }
     if (worker == NULL || worker->gather.scratch == NULL) {
-        return PM_FAIL(PM_ENOMEM, "no memory for %u neighbours", k);
+        return PM_FAIL(PM_ENOMEM, "no memory for %u neighbours", entries);
     }
     worker_set_up(pass, worker);
     return PM_OK;
@@ -80,6 +89,9 @@ static void worker_end(void *context, void *given)
     }
     pass->report->cut += worker->cut + worker->gather.cut;
     pass->report->lookups += worker->lookups;
+    pass->report->near += worker->gather.near;
+    pass->report->shadow_rays += worker->gather.shadow_rays;
+    pass->report->shadow_spared += worker->gather.shadow_spared;
     free(worker->gather.scratch);
     free(worker);
 }

@@ -38,9 +38,11 @@ static pm_status say_indirect(void *context, const pm_vertex *at, pm_spectrum *r
     return say(desk, &desk->indirect, PM_DESK_INDIRECT, at, radiance);
 }
 
-static pm_status say_global(void *context, const pm_vertex *at, pm_spectrum *radiance)
+static pm_status say_global(void *context, const pm_vertex *at, pm_rng *rng,
+                            pm_spectrum *radiance)
 {
     pm_desk *desk = context;
+    (void)rng;
     return say(desk, &desk->global, PM_DESK_GLOBAL, at, radiance);
 }
 

@@ -122,9 +122,10 @@ static void each_map_is_asked_for_its_own_light(void)
 {
     site at = {0};
     sown_site(&at);
-    pm_vertex floor = pm_pictures_meet(&at.s, pm_vec(0.0, 0.0, 0.5), pm_vec(0.0, 0.0, -1.0));
+    pm_vertex floor = pm_pictures_meet(&at.s, pm_vec(0.0, 0.0, 2.0), pm_vec(0.0, 0.0, -1.0));
     pm_spectrum radiance;
-    CHECK_OK(at.compose.ask.global(&at.gather, &floor, &radiance));
+    pm_rng unused = pm_shapes_rng(0, 7);
+    CHECK_OK(at.compose.ask.global(&at.gather, &floor, &unused, &radiance));
     check_radiance("a gather ray's end takes all", radiance, pm_gray(1.0));
     CHECK_NEAR((double)at.gather.lookups, 1.0, 0.0);
     CHECK_NEAR((double)at.gather.found_sum, 60.0, 0.0);
@@ -155,31 +156,37 @@ static void maps_that_are_not_there_are_not_asked(void)
 
 // --- final gather ----------------------------------------------------------------------------
 
-static pm_status bright_everywhere(void *context, const pm_vertex *at, pm_spectrum *radiance)
+static pm_status bright_everywhere(void *context, const pm_vertex *at, pm_rng *rng,
+                                   pm_spectrum *radiance)
 {
     (void)context;
+    (void)rng;
     (void)at;
     *radiance = pm_gray(1.0);
     return PM_OK;
 }
 
-static pm_status bright_at_plus_x(void *context, const pm_vertex *at, pm_spectrum *radiance)
+static pm_status bright_at_plus_x(void *context, const pm_vertex *at, pm_rng *rng,
+                                  pm_spectrum *radiance)
 {
     (void)context;
+    (void)rng;
     *radiance = pm_gray(at->hit.position.x > 0.0 ? 1.0 : 0.0);
     return PM_OK;
 }
 
-static pm_status bright_within_60_degrees(void *context, const pm_vertex *at,
+static pm_status bright_within_60_degrees(void *context, const pm_vertex *at, pm_rng *rng,
                                           pm_spectrum *radiance)
 {
     (void)context;
+    (void)rng;
     pm_vec3 way = at->hit.position;
     *radiance = pm_gray(way.z > 0.5 * pm_vec_length(way) ? 1.0 : 0.0);
     return PM_OK;
 }
 
-typedef pm_status (*sky_fn)(void *context, const pm_vertex *at, pm_spectrum *radiance);
+typedef pm_status (*sky_fn)(void *context, const pm_vertex *at, pm_rng *rng,
+                            pm_spectrum *radiance);
 
 /// Mean and variance of the gathered light at the middle of a room under `sky`, over pixels and
 /// their samples.
@@ -248,13 +255,13 @@ static void a_thin_wall_leaks_nothing(void)
         at.gather.settings.estimate.shape = shapes[i % 2];
         pm_vertex dark =
             pm_pictures_meet(&at.s, pm_vec(place.x, place.y, 1.0), pm_vec(0.0, 0.0, -1.0));
-        CHECK_OK(at.compose.ask.global(&at.gather, &dark, &radiance));
+        CHECK_OK(at.compose.ask.global(&at.gather, &dark, &rng, &radiance));
         CHECK(pm_spectrum_is_black(radiance) && at.gather.found_sum == 0);
         CHECK_OK(at.compose.ask.direct(&at.gather, &dark, &radiance));
         CHECK(pm_spectrum_is_black(radiance));
         pm_vertex lit =
             pm_pictures_meet(&at.s, pm_vec(place.x, place.y, -1.0), pm_vec(0.0, 0.0, 1.0));
-        CHECK_OK(at.compose.ask.global(&at.gather, &lit, &radiance));
+        CHECK_OK(at.compose.ask.global(&at.gather, &lit, &rng, &radiance));
         CHECK(radiance.c[0] > 0.0 && at.gather.found_sum == 64);
         at.gather.found_sum = 0;
     }

@@ -1,0 +1,93 @@
+// One estimate a question; those in the global map are counted for the picture's channels.
+#include "lookup.h"
+
+#include "irradiance.h"
+
+#include <stddef.h>
+
+static pm_status look_up(pm_gather *gather, pm_map_kind kind,
+                         const pm_estimate_settings *settings, const pm_vertex *at,
+                         pm_estimate *found)
+{
+    pm_estimate_point point = {at->hit.position, at->lobes.normal};
+    return pm_estimate_radiance(gather->map[kind], settings, &point, &at->lobes,
+                                gather->scratch, found);
+}
+
+static void count(pm_gather *gather, const pm_estimate *found)
+{
+    gather->radius_sum += found->radius;
+    gather->found_sum += found->found;
+    gather->lookups++;
+}
+
+/// By an irradiance that was estimated before; `covered` says whether one is near enough.
+static pm_status look_up_place(const pm_gather *gather, const pm_vertex *at, bool *covered,
+                               pm_estimate *found)
+{
+    *covered = false;
+    if (gather->irradiance == NULL || !pm_material_is_lambertian(&at->lobes)) {
+        return PM_OK;
+    }
+    pm_estimate_point point = {at->hit.position, at->lobes.normal};
+    PM_TRY(pm_irradiance_find(gather->irradiance, &gather->settings.estimate,
+                              gather->irradiance_reach, &point, covered, found));
+    if (*covered) {
+        pm_spectrum f = pm_material_evaluate(&at->lobes, at->lobes.normal);
+        found->value = pm_spectrum_mul(found->value, f);
+    }
+    return PM_OK;
+}
+
+pm_status pm_lookup_global(pm_gather *gather, const pm_vertex *at, pm_estimate *found)
+{
+    bool covered;
+    PM_TRY(look_up_place(gather, at, &covered, found));
+    if (!covered) {
+        PM_TRY(look_up(gather, PM_MAP_GLOBAL, &gather->settings.estimate, at, found));
+    }
+    count(gather, found);
+    return PM_OK;
+}
+
+pm_status pm_lookup_indirect(pm_gather *gather, const pm_vertex *at, pm_spectrum *radiance)
+{
+    pm_estimate found;
+    pm_estimate_settings settings = gather->settings.estimate;
+    settings.skip = PM_PHOTON_FIRST | PM_PHOTON_CAUSTIC;
+    PM_TRY(look_up(gather, PM_MAP_GLOBAL, &settings, at, &found));
+    count(gather, &found);
+    *radiance = found.value;
+    return PM_OK;
+}
+
+pm_status pm_lookup_caustic(pm_gather *gather, const pm_vertex *at, pm_spectrum *radiance)
+{
+    pm_estimate found;
+    PM_TRY(look_up(gather, PM_MAP_CAUSTIC, &gather->settings.estimate, at, &found));
+    *radiance = found.value;
+    return PM_OK;
+}
+
+pm_status pm_lookup_marked(pm_gather *gather, const pm_vertex *at, double reach,
+                           pm_spectrum *radiance)
+{
+    pm_estimate found;
+    pm_estimate_settings settings = gather->settings.estimate;
+    settings.only = PM_PHOTON_CAUSTIC;
+    settings.radius = pm_least(settings.radius, reach);
+    PM_TRY(look_up(gather, PM_MAP_GLOBAL, &settings, at, &found));
+    *radiance = found.value;
+    return PM_OK;
+}
+
+bool pm_lookup_has_marked(const pm_gather *gather)
+{
+    const pm_photon_map *global = gather->map[PM_MAP_GLOBAL];
+    for (uint32_t i = 0; global != NULL && i < global->count; i++) {
+        if ((global->photons[i].flags & PM_PHOTON_CAUSTIC) != 0) {
+            return true;
+        }
+    }
+    return false;
+}

@@ -1,0 +1,28 @@
+// What the photon maps say of a vertex. Each path class is read from one map: which photons a
+// lookup skips is decided here and nowhere else.
+#ifndef PM_LOOKUP_H
+#define PM_LOOKUP_H
+
+#include "gather.h"
+
+/// Everything that leaves a vertex by its D lobes, as the end of a gather ray: all photons of
+/// the global map, or the irradiance of a place near by where there is one and the vertex is
+/// Lambertian.
+/// @param found  [out] its value is a radiance [W/(m^2 sr)]
+pm_status pm_lookup_global(pm_gather *gather, const pm_vertex *at, pm_estimate *found);
+
+/// The global map seen directly: without LD, which shadow rays bring, and LS+D, which the
+/// caustic layer has.
+pm_status pm_lookup_indirect(pm_gather *gather, const pm_vertex *at, pm_spectrum *radiance);
+
+/// LS+D from the caustic map.
+pm_status pm_lookup_caustic(pm_gather *gather, const pm_vertex *at, pm_spectrum *radiance);
+
+/// LS+D from the photons of the global map that are marked so, no farther than `reach` [m].
+pm_status pm_lookup_marked(pm_gather *gather, const pm_vertex *at, double reach,
+                           pm_spectrum *radiance);
+
+/// Whether the global map has such photons.
+bool pm_lookup_has_marked(const pm_gather *gather);
+
+#endif
