@@ -9,10 +9,10 @@
 
 #include "pieces.h"
 
-/// On a sphere of directions a cell is some 3 degrees wide: it is the border cells of a target
-/// that are wasted, and at half the width there would be half as many of them, for four times
-/// the work.
-enum { PM_CELLS_ROWS = 64, PM_CELLS_COLUMNS = 128 };
+/// Measured by the share of power that the caustic map's lights still send: with 128 x 128
+/// cells 0.8 % in scenes/sparse.xml and 28.6 % in scenes/cornell-spheres.xml; with 64 x 128
+/// 1.6 % and 29.1 %, with 512 x 512 0.8 % and 27.8 %.
+enum { PM_CELLS_ROWS = 128, PM_CELLS_COLUMNS = 128 };
 enum { PM_CELLS = PM_CELLS_ROWS * PM_CELLS_COLUMNS };
 
 typedef struct {
@@ -28,8 +28,8 @@ typedef struct {
 /// The cells of `light`, all dark.
 ///
 /// @param cells  [out]
-/// @return false when photons of different starts have the same cell, but no spread to speak
-/// of: spheres, cylinders and meshes that shine, and the constant light
+/// @return false when a direction says nothing about where photons go: spheres, cylinders and
+/// meshes that shine, and the constant light
 bool pm_cells_begin(const pm_scene *scene, const pm_light *light, pm_cells *cells);
 
 /// Lights the cells that reach into `ball`.
