@@ -26,12 +26,6 @@ static void add_lobe(pm_lobes *lobes, pm_lobe_type type, bool specular, pm_spect
     lobes->diffuse = lobes->diffuse || !specular;
 }
 
-/// Whether a rough reflection is narrow enough to be followed like a mirror's.
-static bool glossy_is_specular(const pm_material *material)
-{
-    return material->alpha <= 0.1;
-}
-
 static void add_dielectric(pm_lobes *lobes, const pm_material *material, bool inside)
 {
     lobes->eta =
@@ -77,7 +71,7 @@ static void add_metal(pm_lobes *lobes, const pm_material *material)
     if (material->type == PM_BSDF_CONDUCTOR) {
         add_lobe(lobes, PM_LOBE_REFLECT, true, albedo);
     } else {
-        add_lobe(lobes, PM_LOBE_GLOSSY, glossy_is_specular(material), albedo);
+        add_lobe(lobes, PM_LOBE_GLOSSY, material->alpha <= PM_GLOSSY_ALPHA, albedo);
     }
 }
 
@@ -86,7 +80,7 @@ static void add_plastic(pm_lobes *lobes, const pm_material *material)
     bool rough = material->type == PM_BSDF_ROUGH_PLASTIC;
     double through = pm_coat_through(material, cosine_of(lobes, lobes->wi));
     add_lobe(lobes, rough ? PM_LOBE_GLOSSY : PM_LOBE_REFLECT,
-             !rough || glossy_is_specular(material),
+             !rough || material->alpha <= PM_GLOSSY_ALPHA,
              pm_spectrum_scale(material->specular_reflectance, 1.0 - through));
     add_lobe(lobes, PM_LOBE_COATED, false,
              pm_spectrum_scale(material->reflectance, through * pm_coat_gain(material)));
@@ -309,68 +303,6 @@ bool pm_material_is_lambertian(const pm_lobes *lobes)
         }
     }
     return true;
-}
-
-static pm_material_traits traits_of_metal(const pm_material *material)
-{
-    double reflects = pm_spectrum_max(mirror_reflectance(material, 0.0));
-    bool smooth = material->type == PM_BSDF_CONDUCTOR;
-    bool specular = smooth || glossy_is_specular(material);
-    return (pm_material_traits){
-        .diffuse = !specular,
-        .reflecting = !specular && reflects > 0.0,
-        .specular = specular && reflects > 0.0,
-        .delta = smooth && reflects > 0.0,
-        .albedo = specular ? 0.0 : reflects, // at grazing angles, where metals reflect most
-    };
-}
-
-static pm_material_traits traits_of_plastic(const pm_material *material)
-{
-    bool smooth = material->type == PM_BSDF_PLASTIC;
-    bool coated = material->int_ior != material->ext_ior &&
-                  !pm_spectrum_is_black(material->specular_reflectance);
-    bool specular = coated && (smooth || glossy_is_specular(material));
-    double out = material->coat_mean * pm_coat_gain(material);
-    pm_spectrum ground = pm_spectrum_scale(material->reflectance, out);
-    pm_spectrum coat =
-        pm_spectrum_scale(material->specular_reflectance, 1.0 - material->coat_mean);
-    return (pm_material_traits){
-        .diffuse = true,
-        .reflecting = !pm_spectrum_is_black(material->reflectance) || (coated && !specular),
-        .specular = specular,
-        .delta = specular && smooth,
-        .albedo = pm_spectrum_max(pm_spectrum_add(ground, coat)),
-    };
-}
-
-static pm_material_traits traits_of_glass(const pm_material *material)
-{
-    bool dark = pm_spectrum_is_black(material->specular_reflectance) &&
-                pm_spectrum_is_black(material->specular_transmittance);
-    return (pm_material_traits){.specular = !dark, .delta = !dark, .transmits = true};
-}
-
-pm_material_traits pm_material_traits_of(const pm_material *material)
-{
-    double albedo = pm_spectrum_max(material->reflectance);
-    switch (material->type) {
-    case PM_BSDF_DIFFUSE:
-        return (pm_material_traits){
-            .diffuse = true, .reflecting = albedo > 0.0, .albedo = albedo};
-    case PM_BSDF_CONDUCTOR:
-    case PM_BSDF_ROUGH_CONDUCTOR:
-        return traits_of_metal(material);
-    case PM_BSDF_PLASTIC:
-    case PM_BSDF_ROUGH_PLASTIC:
-        return traits_of_plastic(material);
-    case PM_BSDF_DIELECTRIC:
-    case PM_BSDF_THIN_DIELECTRIC:
-        return traits_of_glass(material);
-    case PM_BSDF_NULL:
-        return (pm_material_traits){.transmits = true};
-    }
-    return (pm_material_traits){0};
 }
 
 void pm_material_prepare(pm_material *material)

@@ -10,6 +10,9 @@
 
 #define PM_LOBES_MAX 3
 
+/// Up to this roughness a GLOSSY lobe is narrow enough to be followed like a mirror: S.
+#define PM_GLOSSY_ALPHA 0.1
+
 typedef enum {
     PM_LOBE_DIFFUSE,  // cosine about the normal
     PM_LOBE_REFLECT,  // one mirrored direction
