@@ -43,6 +43,15 @@ static void see_lamp(const pm_scene *scene, const pm_hit *hit, const tiny_path *
     layer[into] = pm_spectrum_add(layer[into], seen);
 }
 
+static char letter_of(const pm_lobes *lobes, int which)
+{
+    pm_lobe_type type = lobes->lobe[which].type;
+    if (type == PM_LOBE_GLOSSY) {
+        return lobes->material->alpha <= 0.1 ? 'S' : 'D';
+    }
+    return type == PM_LOBE_DIFFUSE || type == PM_LOBE_COATED ? 'D' : 'S';
+}
+
 /// Goes on by one of the lobes; false when the path is absorbed.
 static bool turn(const pm_hit *hit, const pm_lobes *lobes, pm_rng *rng, tiny_path *path)
 {
@@ -58,7 +67,7 @@ static bool turn(const pm_hit *hit, const pm_lobes *lobes, pm_rng *rng, tiny_pat
         pm_spectrum factor = pm_spectrum_mul(lobes->lobe[i].albedo, scatter.weight);
         factor = pm_spectrum_scale(factor, scatter.radiance / p);
         path->weight = pm_spectrum_mul(path->weight, factor);
-        path->met[path->events++] = lobes->lobe[i].type == PM_LOBE_DIFFUSE ? 'D' : 'S';
+        path->met[path->events++] = letter_of(lobes, i);
         path->ray = pm_hit_ray(hit, scatter.wo, 0.0, scatter.medium);
         CHECK(path->events < LETTERS);
         return true;
