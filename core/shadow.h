@@ -8,7 +8,7 @@
 #include "estimate.h"
 #include "intersect.h"
 
-#define PM_SHADOW_K 24 // photons asked about a point
+#define PM_SHADOW_K 48 // photons asked about a point
 
 typedef enum {
     PM_SHADOW_UNSURE, // mixed, or too few photons: shoot a ray
