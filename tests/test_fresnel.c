@@ -1,7 +1,8 @@
 // How much glass and metal reflect: Fresnel's formulas against complex arithmetic, at the
 // angles where digits are easily lost.
-#include "material.h"
+#include "fresnel.h"
 
+#include "material.h"
 #include "scenes.h"
 #include "test.h"
 
@@ -201,6 +202,91 @@ static void metal_of_index_one(void)
     pm_scenes_free(&s);
 }
 
+// --- panes and diffuse light
+
+static void panes(void)
+{
+    for (int i = 0; i < INDICES; i++) {
+        for (int j = 0; j <= STEPS; j++) {
+            double cosine = (double)j / STEPS;
+            double cos_t;
+            double face = pm_fresnel_dielectric(cosine, 1.0 / indices[i], &cos_t);
+            // Light that is thrown to and fro between the two faces.
+            double sum = face;
+            double inside = (1.0 - face) * (1.0 - face) * face;
+            for (int k = 0; k < 1000; k++) {
+                sum += inside;
+                inside *= face * face;
+            }
+            double rest = face < 1.0 ? inside / ((1.0 - face) * (1.0 + face)) : 0.0;
+            CHECK_NEAR(pm_fresnel_pane(cosine, 1.0 / indices[i]), sum + rest, 1e-12);
+        }
+        CHECK_NEAR(pm_fresnel_pane(0.0, 1.0 / indices[i]), indices[i] == 1.0 ? 0.0 : 1.0, 0.0);
+    }
+    CHECK_NEAR(pm_fresnel_pane(1.0, 1.0 / 1.5), 0.08 / 1.04, 1e-15);
+}
+
+static void pane_goes_straight_on(void)
+{
+    pm_scenes s;
+    pm_scenes_begin(&s);
+    int pane = pm_scenes_pane(&s, 1.5);
+    s.materials[pane].specular_reflectance = pm_rgb(1.0, 0.5, 0.0);
+    s.materials[pane].specular_transmittance = pm_rgb(0.25, 1.0, 1.0);
+    pm_scenes_sheet(&s, pane, pane);
+    for (int j = -STEPS; j <= STEPS; j++) {
+        pm_vec3 wi = pm_scenes_slant((double)j / STEPS);
+        pm_lobes lobes = pm_scenes_lobes(&s, wi);
+        double r = pm_fresnel_pane(fabs(wi.z), 1.0 / 1.5);
+        CHECK_NEAR(pm_scenes_reflected(&lobes), r, 1e-15);
+        const pm_lobe *through = pm_scenes_lobe(&lobes, PM_LOBE_STRAIGHT);
+        CHECK(lobes.lobe[0].specular && !lobes.diffuse && !lobes.passes);
+        if (through == NULL) {
+            CHECK(j == 0 && lobes.count == 1);
+            continue;
+        }
+        CHECK(lobes.count == 2 && through->specular);
+        CHECK_NEAR(through->albedo.c[0], 0.25 * (1.0 - r), 1e-15);
+        CHECK_NEAR(through->albedo.c[2], 1.0 - r, 1e-15);
+        pm_rng rng = pm_rng_at(&source, 0, 0);
+        pm_scatter turn;
+        pm_material_sample(&lobes, (int)(through - lobes.lobe), &rng, &turn);
+        CHECK_NEAR(pm_vec_length(pm_vec_add(turn.wo, wi)), 0.0, 0.0);
+        CHECK_NEAR(turn.radiance, 1.0, 0.0);
+        CHECK(turn.pdf == 0.0 && turn.medium == (j > 0));
+    }
+    pm_scenes_free(&s);
+}
+
+/// Mean reflectance for diffuse light from the thinner side, n > 1, in closed form (Walsh).
+static double walsh(double n)
+{
+    double n2 = n * n;
+    double n4 = n2 * n2;
+    double sum = 0.5 + (n - 1.0) * (3.0 * n + 1.0) / (6.0 * (n + 1.0) * (n + 1.0));
+    sum += n2 * pow(n2 - 1.0, 2.0) / pow(n2 + 1.0, 3.0) * log((n - 1.0) / (n + 1.0));
+    sum -= 2.0 * n2 * n * (n2 + 2.0 * n - 1.0) / ((n2 + 1.0) * (n4 - 1.0));
+    return sum + 8.0 * n4 * (n4 + 1.0) / ((n2 + 1.0) * pow(n4 - 1.0, 2.0)) * log(n);
+}
+
+static void diffuse_light(void)
+{
+    for (double n = 1.05; n < 20.0; n *= 1.1) {
+        CHECK_NEAR(pm_fresnel_diffuse_through(1.0 / n), 1.0 - walsh(n), 1e-8);
+        CHECK_NEAR(pm_fresnel_diffuse_through(n), (1.0 - walsh(n)) / (n * n), 1e-8);
+    }
+    CHECK_NEAR(walsh(1.5), 0.0918, 5e-5);
+    CHECK_NEAR(pm_fresnel_diffuse_through(1.0), 1.0, 1e-14);
+    // Both sides by plain sums; total reflection beyond asin(1 / 1.5) and all.
+    double sum = 0.0;
+    for (int i = 0; i < 100000; i++) {
+        double cosine = (i + 0.5) / 100000;
+        double cos_t;
+        sum += 2e-5 * cosine * (1.0 - pm_fresnel_dielectric(cosine, 1.5, &cos_t));
+    }
+    CHECK_NEAR(pm_fresnel_diffuse_through(1.5), sum, 1e-6);
+}
+
 PM_TESTS({"material.1", "what glass reflects and transmits adds up to 1 at every angle",
           glass_keeps_power},
          {"material.2", "glass reflects as complex Fresnel says, from both sides",
@@ -214,4 +300,8 @@ PM_TESTS({"material.1", "what glass reflects and transmits adds up to 1 at every
          {"material.7", "glass of index 1 reflects nothing and bends nothing at any angle",
           index_one_is_not_there},
          {"material.8", "metal reflects as complex Fresnel says", metal_follows_fresnel},
-         {"material.9", "metal of index 1 reflects nothing", metal_of_index_one})
+         {"material.9", "metal of index 1 reflects nothing", metal_of_index_one},
+         {"fresnel.1", "a pane reflects all that its two faces throw to and fro", panes},
+         {"fresnel.2", "light goes straight through a pane, and tints apply",
+          pane_goes_straight_on},
+         {"fresnel.3", "diffuse light gets through as Walsh's closed form says", diffuse_light})
