@@ -47,6 +47,7 @@ libomp-dev        lib/llvm-*/lib/libomp.so           check    threads for the se
 clang-format      bin:clang-format                   check    the layout of the sources
 clang-tidy        bin:clang-tidy                     check    finds what compilers do not warn of
 cppcheck          bin:cppcheck                       check    the same, by other means
+valgrind          bin:valgrind                       bench    counts instructions
 endef
 export PARTS PREFIX
 
@@ -99,7 +100,7 @@ VISUALIZE := $(call objects,$(filter-out visualize/view.c,$(wildcard visualize/*
 VISUALIZE_VTK := $(call objects,$(wildcard visualize/*.cc))
 RUNNER := $(call objects,$(wildcard tests/runner*.c))
 TESTS := $(filter-out $(RUNNER),$(call objects,$(wildcard tests/*.c)))
-BENCHES := $(patsubst tests/bench/%.c,%,$(wildcard tests/bench/*.c))
+BENCH_PROGRAMS := $(patsubst tests/bench/%.c,$(BUILD)/tests/bench/%,$(wildcard tests/bench/*.c))
 
 # --- programs: a list of objects each ---------------------------------------------------------
 MAIN_emission := labs/01_emission/driver
@@ -186,10 +187,34 @@ demo: ## install what is missing, build, render the Cornell box and picture its 
 	@$(AGAIN) all
 	@labs/demo.sh $(BIN)
 
-bench: all $(BENCHES:%=$(BUILD)/tests/bench/%) ## measure speed and memory against the promises
-	@for b in $(BENCHES); do $(BUILD)/tests/bench/$$b $(BIN) || exit; done
+gallery: all ## render every scene at two qualities, all on one sheet
+	@visualize/gallery.sh $(BIN)
 
-$(BENCHES:%=$(BUILD)/tests/bench/%): %: %.o $(CORE)
+BENCHES := promises plan direct caustics precompute projection
+bench: all $(BENCH_PROGRAMS) $(BIN)/render-without-caustics ## measure against the promises (ONLY=plan for one)
+	@for b in $(filter $(ONLY)%,$(BENCHES)); do \
+	  echo "$$b:"; tests/bench/run $(BUILD) $(BIN) $$b || exit; done
+
+$(BENCH_PROGRAMS): %: %.o $(CORE)
+	$(call tell,link $@)
+	$(HIDE)$(LINK) -o $@ $^ $(PART_LIBS)
+
+# Our sources less what is only there for caustics: a picture without any must cost the same.
+WITHOUT := $(BUILD)/without-caustics
+EDITED := $(patsubst tests/bench/without-caustics/%.sed,$(WITHOUT)/core/%.o,\
+  $(wildcard tests/bench/without-caustics/*.sed))
+$(EDITED:.o=.c): $(WITHOUT)/core/%.c: core/%.c tests/bench/without-caustics/%.sed tests/bench/edit
+	@mkdir -p $(@D)
+	$(call tell,edit $<)
+	$(HIDE)tests/bench/edit tests/bench/without-caustics/$*.sed $< $@
+
+$(EDITED): %.o: %.c $(BUILD)/flags
+	$(call tell,$(CC) $<)
+	$(HIDE)$(COMPILE_C) -c -o $@ $<
+
+$(BIN)/render-without-caustics: $(BUILD)/$(MAIN_render).o $(EDITED) \
+  $(filter-out $(EDITED:$(WITHOUT)/%=$(BUILD)/%),$(CORE))
+	@mkdir -p $(@D)
 	$(call tell,link $@)
 	$(HIDE)$(LINK) -o $@ $^ $(PART_LIBS)
 
@@ -242,6 +267,6 @@ help: ## list these targets
 	  printf '  make %-8s %s\n' "$$name" "$$does"; done
 
 FORCE:
-.PHONY: FORCE all meshes build-tests test demo bench check check-format check-lint tidy format \
+.PHONY: FORCE all meshes build-tests test demo gallery bench check check-format check-lint tidy format \
   clean deps doctor help
 -include $(wildcard $(BUILD)/*/*.d $(BUILD)/*/*/*.d)

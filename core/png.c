@@ -79,9 +79,11 @@ static double encode_srgb(double linear)
     return linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1.0 / 2.4) - 0.055;
 }
 
-static pm_status convert(const char *path, const pm_image *image, double gain, uint8_t *pixels)
+pm_status pm_png_pixels(const char *name, const pm_image *image, double exposure,
+                        uint8_t *pixels)
 {
     static const char *const names[3] = {"R", "G", "B"};
+    double gain = exp2(exposure);
     size_t count = (size_t)image->width * (size_t)image->height;
     for (int c = 0; c < 3; c++) {
         const float *plane = pm_image_plane(image, names[c]);
@@ -91,7 +93,7 @@ static pm_status convert(const char *path, const pm_image *image, double gain, u
         }
         for (size_t i = 0; i < count; i++) {
             if (isnan(plane[i])) {
-                return pm_status_fail(PM_EINPUT, "%s: pixel %zu,%zu of channel %s is NaN", path,
+                return pm_status_fail(PM_EINPUT, "%s: pixel %zu,%zu of channel %s is NaN", name,
                                       i % (size_t)image->width, i / (size_t)image->width,
                                       names[c]);
             }
@@ -109,7 +111,7 @@ pm_status pm_png_write(const char *path, const pm_image *image, double exposure)
     if (pixels == NULL) {
         return PM_FAIL(PM_ENOMEM, "no memory to write a PNG");
     }
-    pm_status status = convert(path, image, exp2(exposure), pixels);
+    pm_status status = pm_png_pixels(path, image, exposure, pixels);
     if (status == PM_OK) {
         status = pm_png_write_bytes(path, pixels, image->width, image->height);
     }

@@ -8,6 +8,13 @@
 /// Writes beside `path` and renames.
 pm_status pm_png_write(const char *path, const pm_image *image, double exposure);
 
+/// The same pixels without a file.
+/// @param name    of the picture, for messages
+/// @param pixels  [out] width * height * 3 bytes, rows from the top
+/// @return PM_EINPUT when a channel is missing or a value is NaN
+pm_status pm_png_pixels(const char *name, const pm_image *image, double exposure,
+                        uint8_t *pixels);
+
 /// Writes 8-bit pixels as they are: width * height * 3 bytes, rows from the top.
 pm_status pm_png_write_bytes(const char *path, const uint8_t *pixels, int width, int height);
 

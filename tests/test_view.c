@@ -320,7 +320,7 @@ static void bad_data_is_refused(void)
 static void bad_usage_is_refused(void)
 {
     const char *csv = write_text("paths.csv", PATHS);
-    check_refused("pathes", csv, "KIND must be photons, paths, tree or irradiance");
+    check_refused("pathes", csv, "KIND must be photons, paths, tree, irradiance or contact");
     check_refused("paths", at("missing.csv"), "missing.csv: cannot open");
     check_refused("paths", pm_test_folder(), "cannot read");
     check_refused("photons", at("missing.ply"), "missing.ply");

@@ -158,6 +158,25 @@ void cover_margins(pm_figure *figure)
     pm_figure_overlay(figure, margins.data(), 1.0);
 }
 
+pm_status open_empty(const pm_viewpoint &viewpoint, pm_figure **figure)
+{
+    PM_TRY(check_size(&viewpoint));
+    listen()->forget();
+    vtkSmartPointer<vtkRenderWindow> window;
+    PM_TRY(pm_window_open(viewpoint.width, viewpoint.height, &window));
+    window->SetMultiSamples(8);
+    auto renderer = vtkSmartPointer<vtkRenderer>::New();
+    renderer->SetUseDepthPeeling(0);
+    renderer->GradientBackgroundOn();
+    renderer->SetBackground(ground_low.r / 255.0, ground_low.g / 255.0, ground_low.b / 255.0);
+    renderer->SetBackground2(ground_high.r / 255.0, ground_high.g / 255.0,
+                             ground_high.b / 255.0);
+    window->AddRenderer(renderer);
+    *figure =
+        new pm_figure{viewpoint, window, renderer, (1.0 - PM_VIEWPOINT_TOP) * viewpoint.height};
+    return PM_OK;
+}
+
 } // namespace
 
 void pm_figure_overlay(pm_figure *figure, vtkPolyData *data, double line_width)
@@ -176,24 +195,20 @@ void pm_figure_overlay(pm_figure *figure, vtkPolyData *data, double line_width)
 pm_status pm_figure_open(const pm_viewpoint *viewpoint, pm_figure **figure)
 {
     return pm_figure_guard("a figure", [&] {
-        PM_TRY(check_size(viewpoint));
-        listen()->forget();
-        vtkSmartPointer<vtkRenderWindow> window;
-        PM_TRY(pm_window_open(viewpoint->width, viewpoint->height, &window));
-        window->SetMultiSamples(8);
-        auto renderer = vtkSmartPointer<vtkRenderer>::New();
-        renderer->SetUseDepthPeeling(0);
-        renderer->GradientBackgroundOn();
-        renderer->SetBackground(ground_low.r / 255.0, ground_low.g / 255.0,
-                                ground_low.b / 255.0);
-        renderer->SetBackground2(ground_high.r / 255.0, ground_high.g / 255.0,
-                                 ground_high.b / 255.0);
-        window->AddRenderer(renderer);
-        point_camera(renderer->GetActiveCamera(), *viewpoint);
-        *figure = new pm_figure{*viewpoint, window, renderer,
-                                (1.0 - PM_VIEWPOINT_TOP) * viewpoint->height};
+        PM_TRY(open_empty(*viewpoint, figure));
+        point_camera((*figure)->renderer->GetActiveCamera(), *viewpoint);
         cover_margins(*figure);
         return PM_OK;
+    });
+}
+
+pm_status pm_figure_open_flat(int width, int height, pm_figure **figure)
+{
+    return pm_figure_guard("a figure", [&] {
+        pm_viewpoint nowhere = {};
+        nowhere.width = width;
+        nowhere.height = height;
+        return open_empty(nowhere, figure);
     });
 }
 

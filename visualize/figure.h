@@ -51,6 +51,10 @@ typedef struct {
 ///         PM_ENOMEM
 pm_status pm_figure_open(const pm_viewpoint *viewpoint, pm_figure **figure);
 
+/// Opens an empty figure that has no scene, and no margins kept free of one: for
+/// pm_figure_text() and pm_figure_picture(). Otherwise as pm_figure_open().
+pm_status pm_figure_open_flat(int width, int height, pm_figure **figure);
+
 /// A bold title and a smaller note under it, at the top left. '\n' starts a new line.
 pm_status pm_figure_title(pm_figure *figure, const char *title, const char *note);
 
@@ -63,6 +67,24 @@ pm_status pm_figure_scale(pm_figure *figure, const pm_scale *scale);
 
 /// A small word at a point of the scene.
 pm_status pm_figure_mark(pm_figure *figure, pm_vec3 at, const char *text);
+
+/// How a line of text looks.
+typedef enum {
+    PM_TEXT_PLAIN,
+    PM_TEXT_STRONG,
+    PM_TEXT_DIM,
+    PM_TEXT_DIM_RIGHT, // and ends at x, where the others start
+} pm_text_look;
+
+/// A line of text whose top left corner is at (x, y), pixels from the figure's top left. Its
+/// letters have `size` pixels in a figure of any size.
+pm_status pm_figure_text(pm_figure *figure, const char *text, double x, double y, double size,
+                         pm_text_look look);
+
+/// An 8-bit picture, rows from the top, whose top left corner is at pixel (x, y) from the
+/// figure's top left: not a value is changed.
+pm_status pm_figure_picture(pm_figure *figure, const uint8_t *pixels, int width, int height,
+                            int x, int y);
 
 /// Draws everything and writes a PNG beside `path`, then renames it.
 pm_status pm_figure_write(pm_figure *figure, const char *path);

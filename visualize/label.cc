@@ -22,20 +22,27 @@ const double bar_height = 190.0;
 const int bar_steps = 128;
 
 /// Text whose top left corner is at (x, y), pixels from the bottom left.
-vtkTextProperty *write(pm_figure *figure, const std::string &text, double x, double y,
-                       double size)
+vtkTextProperty *write_pixels(pm_figure *figure, const std::string &text, double x, double y,
+                              double size)
 {
     vtkNew<vtkTextActor> actor;
     actor->SetInput(text.c_str());
     actor->SetPosition(x, y);
     vtkTextProperty *style = actor->GetTextProperty();
     style->SetFontFamilyToArial();
-    style->SetFontSize(static_cast<int>(std::lround(figure->pixels(size))));
+    style->SetFontSize(static_cast<int>(std::lround(size)));
     style->SetColor(0.93, 0.94, 0.96);
     style->SetVerticalJustificationToTop();
     style->SetLineSpacing(1.25);
     figure->renderer->AddActor2D(actor);
     return style;
+}
+
+/// The same with letters of a `size` in a picture 900 pixels high.
+vtkTextProperty *write(pm_figure *figure, const std::string &text, double x, double y,
+                       double size)
+{
+    return write_pixels(figure, text, x, y, figure->pixels(size));
 }
 
 void box(pm_drawing *drawing, double x0, double y0, double x1, double y1, pm_colour colour)
@@ -204,6 +211,23 @@ pm_status pm_figure_mark(pm_figure *figure, pm_vec3 at, const char *text)
             style->SetBackgroundOpacity(0.8);
             style->SetJustificationToCentered();
             style->SetVerticalJustificationToCentered();
+        }
+        return PM_OK;
+    });
+}
+
+pm_status pm_figure_text(pm_figure *figure, const char *text, double x, double y, double size,
+                         pm_text_look look)
+{
+    return pm_figure_guard("a line of text", [&] {
+        vtkTextProperty *style =
+            write_pixels(figure, text, x, figure->viewpoint.height - y, size);
+        style->SetBold(look == PM_TEXT_STRONG);
+        if (look == PM_TEXT_DIM || look == PM_TEXT_DIM_RIGHT) {
+            style->SetColor(0.72, 0.75, 0.8);
+        }
+        if (look == PM_TEXT_DIM_RIGHT) {
+            style->SetJustificationToRight();
         }
         return PM_OK;
     });

@@ -5,6 +5,8 @@
 //     view paths PATHS.csv --scene SCENE.xml [--paths N] -o out.png
 //     view tree MAP.ply --scene SCENE.xml [--depth D] -o out.png
 //     view irradiance GRID.csv --scene SCENE.xml -o out.png
+//     view contact A.exr B.exr ... -o sheet.png
+#include "contact.h"
 #include "draw.h"
 #include "figure.h"
 #include "grid_file.h"
@@ -42,12 +44,12 @@ typedef struct {
     char note[NOTE_MAX];
 } picture;
 
-/// A kind of picture; `draw` draws its data and writes the note.
+/// A kind of picture; `draw` draws its data in the scene and writes the note.
 typedef struct {
     const char *name;
     int files_most;
     const char *title;
-    pm_status (*draw)(picture *p);
+    pm_status (*draw)(picture *p); // NULL: there is no scene around it
 } kind;
 
 /// 1234567 as 1,234,567; `text` holds 32.
@@ -230,6 +232,7 @@ static const kind kinds[] = {
     {"paths", 1, "Photon paths", draw_paths},
     {"tree", 1, "kd-tree: how the photons are divided", draw_tree},
     {"irradiance", 1, "Irradiance", draw_irradiance},
+    {"contact", PM_CONTACT_MOST, "Contact sheet", NULL},
 };
 
 static const kind *find_kind(const char *name)
@@ -247,6 +250,18 @@ static json_t *vector_json(pm_vec3 v)
     return json_pack("[f,f,f]", v.x, v.y, v.z);
 }
 
+/// Takes the reference.
+static pm_status print_object(json_t *all)
+{
+    if (all == NULL || json_dumpf(all, stdout, JSON_COMPACT) != 0) {
+        json_decref(all);
+        return PM_FAIL(PM_EIO, "%s", "cannot write JSON to standard output");
+    }
+    printf("\n");
+    json_decref(all);
+    return PM_OK;
+}
+
 /// Where everything is in the picture: with this a reader finds the pixel of any point.
 static pm_status print_json(const picture *p, const pm_viewpoint *v)
 {
@@ -258,13 +273,7 @@ static pm_status print_json(const picture *p, const pm_viewpoint *v)
     json_t *all =
         json_pack("{s:s,s:[i,i],s:I,s:s,s:o}", "picture", p->options->output, "size", v->width,
                   v->height, "drawn", (json_int_t)p->drawn, "note", p->note, "camera", camera);
-    if (all == NULL || json_dumpf(all, stdout, JSON_COMPACT) != 0) {
-        json_decref(all);
-        return PM_FAIL(PM_EIO, "%s", "cannot write JSON to standard output");
-    }
-    printf("\n");
-    json_decref(all);
-    return PM_OK;
+    return print_object(all);
 }
 
 static pm_status make(picture *p, const kind *k)
@@ -281,6 +290,31 @@ static pm_status make(picture *p, const kind *k)
     return p->options->json ? print_json(p, &viewpoint) : PM_OK;
 }
 
+/// Everything about a contact sheet, which has no scene and no camera.
+static pm_status make_contact(const pm_options *options, const char *title, pm_contact *sheet)
+{
+    PM_TRY(pm_contact_lay(sheet));
+    PM_TRY(pm_contact_write(sheet, title, options->output));
+    return options->json ? print_object(pm_contact_json(sheet, options->output)) : PM_OK;
+}
+
+static pm_status draw_contact(const picture *p, const kind *k)
+{
+    const pm_options *options = p->options;
+    pm_contact sheet;
+    if (options->scene != NULL || options->width > 0) {
+        return pm_status_fail(PM_EINPUT,
+                              "view: contact takes no %s: a sheet is as large as its pictures "
+                              "ask, and they are whole",
+                              options->scene != NULL ? "--scene" : "--size");
+    }
+    PM_TRY(pm_contact_read(p->files, p->file_count, options->exposure, &sheet));
+    const char *title = options->title != NULL ? options->title : k->title;
+    pm_status status = make_contact(options, title, &sheet);
+    pm_contact_free(&sheet);
+    return status;
+}
+
 static pm_status check_files(const picture *p, const kind *k)
 {
     if (p->file_count < 1 || p->file_count > k->files_most) {
@@ -290,44 +324,61 @@ static pm_status check_files(const picture *p, const kind *k)
     return PM_OK;
 }
 
+/// A kind that draws its data in the scene it came from.
+static pm_status draw_in_scene(picture *p, const kind *k)
+{
+    const pm_options *options = p->options;
+    if (options->scene == NULL) {
+        return pm_status_fail(PM_EINPUT, "view: --scene SCENE.xml must be given for %s",
+                              k->name);
+    }
+    PM_TRY(pm_scene_read(options->scene, options->define, options->define_count, false,
+                         &p->scene));
+    pm_status status = make(p, k);
+    pm_figure_close(p->figure);
+    for (int i = 0; i < p->cloud_count; i++) {
+        pm_photon_cloud_free(&p->clouds[i]);
+    }
+    pm_scene_free(&p->scene);
+    return status;
+}
+
 static pm_status run(const pm_options *options)
 {
     const kind *k = find_kind(options->positional[0]);
     if (k == NULL) {
         return pm_status_fail(
-            PM_EINPUT, "view: KIND must be photons, paths, tree or irradiance, got \"%s\"",
+            PM_EINPUT,
+            "view: KIND must be photons, paths, tree, irradiance or contact, got \"%s\"",
             options->positional[0]);
     }
     picture p = {.options = options,
                  .files = options->positional + 1,
                  .file_count = options->positional_count - 1};
     PM_TRY(check_files(&p, k));
-    PM_TRY(
-        pm_scene_read(options->scene, options->define, options->define_count, false, &p.scene));
-    pm_status status = make(&p, k);
-    pm_figure_close(p.figure);
-    for (int i = 0; i < p.cloud_count; i++) {
-        pm_photon_cloud_free(&p.clouds[i]);
-    }
-    pm_scene_free(&p.scene);
-    return status;
+    return k->draw != NULL ? draw_in_scene(&p, k) : draw_contact(&p, k);
 }
 
 int main(int argc, char **argv)
 {
     static const pm_options_program program = {
         .name = "view",
-        .does = "Draws what other programs wrote: photons, paths, the kd-tree, irradiance.",
+        .does = "Draws what other programs wrote: photons, paths, the kd-tree, irradiance,"
+                " sheets of pictures.",
         .positional = "KIND FILE...",
         .positional_least = 2,
-        .positional_most = 1 + FILES_MAX,
-        .options = "o scene depth paths size title",
-        .needs = "o scene",
+        .positional_most = 1 + PM_CONTACT_MOST,
+        .options = "o scene depth paths size title exposure",
+        .needs = "o",
         .notes =
             "KIND and its FILE: photons MAP.ply [MAP.ply ...], paths PATHS.csv (tracing "
             "--dump),\n"
-            "tree MAP.ply, irradiance GRID.csv (radiance --grid --dump).\n"
-            "The picture is 1200x900 unless --size says otherwise. --json prints the camera,\n"
+            "tree MAP.ply, irradiance GRID.csv (radiance --grid --dump); each with --scene.\n"
+            "contact A.exr B.exr ...: one sheet of pictures of one size, SCENE.SETTINGS.exr;\n"
+            "neighbours of one scene share an exposure, to which --exposure adds. What their\n"
+            "reports say (render --report SCENE.SETTINGS.json) stands beneath them.\n"
+            "Other pictures are 1200x900 unless --size says otherwise. --json prints the "
+            "camera,\n"
             "so that a program can find the pixel of any point.",
     };
     pm_options options;
