@@ -36,13 +36,14 @@ static double fading_power(const pm_light *light, double d)
     return sin(light->beam) * by_sine + cos(light->beam) * by_cosine;
 }
 
-/// How far beyond the beam's edge `power` is reached: Newton's method, kept between two bounds.
-static double fading_angle(const pm_light *light, double power)
+/// How far beyond the beam's edge `power` of all the `fading` is reached: Newton's method, kept
+/// between two bounds. It starts where it would be if the sine were the same all over.
+static double fading_angle(const pm_light *light, double power, double fading)
 {
     double width = light->cutoff - light->beam;
     double low = 0.0;
     double high = width;
-    double d = 0.5 * width;
+    double d = width * (1.0 - sqrt(pm_most(0.0, 1.0 - power / fading)));
     for (int i = 0; i < STEPS; i++) {
         double excess = fading_power(light, d) - power;
         *(excess > 0.0 ? &high : &low) = d;
@@ -50,10 +51,11 @@ static double fading_angle(const pm_light *light, double power)
         if (!(next > low && next < high)) {
             next = 0.5 * (low + high);
         }
-        if (next == d) {
+        double moved = fabs(next - d);
+        d = next;
+        if (moved <= 0x1p-51 * d) {
             break;
         }
-        d = next;
     }
     return d;
 }
@@ -67,5 +69,5 @@ double pm_spot_angle(const pm_light *light, double u)
     if (wanted <= beam) {
         return 2.0 * asin(sqrt(0.5 * wanted));
     }
-    return light->beam + fading_angle(light, wanted - beam);
+    return light->beam + fading_angle(light, wanted - beam, fading);
 }

@@ -1,8 +1,7 @@
-// Photons shared out among lights, the power they are given, the turns that lights take, and
-// projection cells. Directions and starts: test_emit_rays.c.
+// Photons shared out among lights, the power they are given, and the turns that lights take.
+// Directions and starts: test_emit_rays.c and test_emit_spot.c; cells: test_emit_cells.c.
 #include "emit.h"
 
-#include "chance.h"
 #include "scenes.h"
 #include "test.h"
 
@@ -126,11 +125,11 @@ static void sharing_refuses(void)
 }
 
 /// All photons of a pass of `count`; free() them.
-static pm_start *emit_all(const pm_scenes *s, uint32_t count, const pm_projection *projections)
+static pm_start *emit_all(const pm_scenes *s, uint32_t count)
 {
     uint64_t share[LIGHTS];
     CHECK_OK(pm_emit_share(&s->scene, NULL, count, share));
-    pm_emission emission = {&s->scene, source, count, share, projections};
+    pm_emission emission = {&s->scene, source, count, share, NULL};
     pm_start *starts = calloc(count, sizeof *starts);
     CHECK(starts != NULL);
     CHECK_OK(pm_emit_photons(&emission, 0, count, starts));
@@ -139,7 +138,7 @@ static pm_start *emit_all(const pm_scenes *s, uint32_t count, const pm_projectio
 
 static void check_power(const pm_scenes *s, uint32_t count)
 {
-    pm_start *starts = emit_all(s, count, NULL);
+    pm_start *starts = emit_all(s, count);
     pm_spectrum sum[LIGHTS] = {0};
     for (uint32_t i = 0; i < count; i++) {
         sum[starts[i].light] = pm_spectrum_add(sum[starts[i].light], starts[i].power);
@@ -168,6 +167,26 @@ static void power_is_exact(void)
     }
 }
 
+static void every_kind_of_light_is_exact(void)
+{
+    static const double cone[2] = {0.2, 0.7};
+    pm_scenes s;
+    pm_scenes_begin(&s);
+    int black = pm_scenes_diffuse(&s, pm_gray(0.0));
+    int lamp = pm_scenes_wear(&s, pm_scenes_square(0.5, 1.0, true), black);
+    pm_scenes_wear(&s, pm_scenes_square(3.0, -1.0, false), black);
+    pm_scenes_point(&s, pm_vec(0.0, 0.0, 0.0), pm_rgb(0.0, 3.0, 1e-3));
+    pm_scenes_lamp(&s, lamp, pm_rgb(2.0, 0.0, 5.0));
+    pm_scenes_sun(&s, pm_vec(0.0, 0.6, -0.8), pm_rgb(1.0, 0.9, 0.0));
+    pm_scenes_spot(&s, pm_vec(0.0, 0.0, 0.5), pm_vec(0.0, 0.0, -1.0), cone,
+                   pm_rgb(1e3, 1.0, 1e-3));
+    pm_scenes_sky(&s, pm_rgb(0.1, 0.2, 0.4));
+    pm_scenes_ready(&s);
+    check_power(&s, 5);
+    check_power(&s, 1000);
+    pm_scenes_free(&s);
+}
+
 static void lights_take_turns(void)
 {
     // With up to three lights no prefix is two photons away from proportion.
@@ -179,7 +198,7 @@ static void lights_take_turns(void)
         lights_of(&s, sets[i].powers, sets[i].count, false);
         uint64_t share[LIGHTS];
         CHECK_OK(pm_emit_share(&s.scene, NULL, MANY, share));
-        pm_start *starts = emit_all(&s, MANY, NULL);
+        pm_start *starts = emit_all(&s, MANY);
         double sent[LIGHTS] = {0};
         for (uint32_t p = 0; p < MANY; p++) {
             CHECK(starts[p].photon == p);
@@ -201,7 +220,7 @@ static void many_lights_take_turns(void)
         lights_of(&s, sets[i].powers, sets[i].count, false);
         uint64_t share[LIGHTS];
         CHECK_OK(pm_emit_share(&s.scene, NULL, MANY, share));
-        pm_start *starts = emit_all(&s, MANY, NULL);
+        pm_start *starts = emit_all(&s, MANY);
         double sent[LIGHTS] = {0};
         for (uint32_t p = 0; p < MANY; p++) {
             sent[starts[p].light]++;
@@ -232,7 +251,7 @@ static void chunks_do_not_matter(void)
     static const double powers[3] = {1.0, 5.0, 2.0};
     pm_scenes s;
     lights_of(&s, powers, 3, true);
-    pm_start *whole = emit_all(&s, MANY, NULL);
+    pm_start *whole = emit_all(&s, MANY);
     uint64_t share[3];
     CHECK_OK(pm_emit_share(&s.scene, NULL, MANY, share));
     pm_emission emission = {&s.scene, source, MANY, share, NULL};
@@ -277,91 +296,6 @@ static void every_source_sends_others(void)
     pm_scenes_free(&s);
 }
 
-// --- projection cells
-
-static const uint32_t lit_cells[4] = {3, 17, 40, 63};
-static const pm_projection checkered = {8, 8, lit_cells, 4};
-
-/// Number among lit_cells of the cell that holds `u`, or 4.
-static int lit_cell_of(const double u[2])
-{
-    uint32_t cell = (uint32_t)(u[0] * 8.0) * 8 + (uint32_t)(u[1] * 8.0);
-    int found = 0;
-    while (found < 4 && lit_cells[found] != cell) {
-        found++;
-    }
-    return found;
-}
-
-static void cells_are_filled_evenly(void)
-{
-    enum { DRAWS = 200000, FINE = 16 };
-    uint64_t cells[4] = {0};
-    static uint64_t inside[FINE * FINE];
-    for (uint64_t i = 0; i < DRAWS; i++) {
-        pm_rng rng = pm_rng_at(&source, i, 0);
-        double u[2];
-        CHECK_OK(pm_emit_cell(&checkered, &rng, u));
-        int cell = lit_cell_of(u);
-        CHECK_THAT(cell < 4, "(%g, %g) lies in a dark cell", u[0], u[1]);
-        cells[cell]++;
-        double across = u[0] * 8.0 - floor(u[0] * 8.0);
-        double along = u[1] * 8.0 - floor(u[1] * 8.0);
-        inside[(int)(across * FINE) * FINE + (int)(along * FINE)]++;
-    }
-    CHECK_EVEN(cells, 4);
-    CHECK_EVEN(inside, FINE * FINE);
-}
-
-static void no_projection_fills_the_square(void)
-{
-    enum { DRAWS = 100000, FINE = 16 };
-    const pm_projection none = {8, 8, NULL, 0};
-    const pm_projection *both[2] = {NULL, &none};
-    for (int k = 0; k < 2; k++) {
-        uint64_t cells[FINE * FINE] = {0};
-        for (uint64_t i = 0; i < DRAWS; i++) {
-            pm_rng rng = pm_rng_at(&source, i, 0);
-            double u[2];
-            CHECK_OK(pm_emit_cell(both[k], &rng, u));
-            CHECK(u[0] >= 0.0 && u[0] < 1.0 && u[1] >= 0.0 && u[1] < 1.0);
-            cells[(int)(u[0] * FINE) * FINE + (int)(u[1] * FINE)]++;
-        }
-        CHECK_EVEN(cells, FINE * FINE);
-    }
-}
-
-/// Power sent by `starts` into directions of lit cells, a photon.
-static double lit_power(const pm_start *starts, uint32_t count)
-{
-    double sum = 0.0;
-    for (uint32_t i = 0; i < count; i++) {
-        pm_vec3 d = starts[i].ray.direction;
-        double turn = atan2(d.y, d.x) / (2.0 * PM_PI);
-        double u[2] = {0.5 * (1.0 - d.z), turn < 0.0 ? turn + 1.0 : turn};
-        sum += lit_cell_of(u) < 4 ? starts[i].power.c[0] : 0.0;
-    }
-    return sum / count;
-}
-
-static void projection_scales_power(void)
-{
-    // 1/16 of a point light's 5 W go through the lit cells, with the map (exactly) or without
-    // it (binomial).
-    enum { COUNT = 200000 };
-    pm_scenes s;
-    lights_of(&s, (const double[1]){5.0}, 1, false);
-    pm_start *with = emit_all(&s, COUNT, &checkered);
-    pm_start *without = emit_all(&s, COUNT, NULL);
-    CHECK_NEAR(lit_power(with, COUNT), 5.0 / 16.0, 1e-3 * 5.0 / 16.0); // rounded onto borders
-    CHECK_NEAR(with[0].power.c[0], 5.0 / 16.0, 1e-15);
-    CHECK_NEAR(lit_power(without, COUNT), 5.0 / 16.0,
-               5.0 * pm_chance_bound(1.0 / 16.0 * 15.0 / 16.0, COUNT));
-    free(with);
-    free(without);
-    pm_scenes_free(&s);
-}
-
 PM_TESTS(
     {"emit.1", "the shares of unlike lights add up to every count, none left out",
      shares_add_up},
@@ -372,14 +306,10 @@ PM_TESTS(
     {"emit.4", "no power, too few and too many photons are refused", sharing_refuses},
     {"emit.5", "the power handed out is flux times count, by light and channel",
      power_is_exact},
+    {"emit.5b", "coloured lights of every kind hand out exactly their power by channel",
+     every_kind_of_light_is_exact},
     {"emit.6", "every prefix of a pass holds three lights in proportion", lights_take_turns},
     {"emit.7", "ten lights get exactly their shares and take turns as well",
      many_lights_take_turns},
     {"emit.8", "a photon is the same in any chunk", chunks_do_not_matter},
-    {"emit.9", "seed, map, pass and photon each change the draws", every_source_sends_others},
-    {"emit.10", "lit cells are chosen evenly and filled evenly, dark ones never",
-     cells_are_filled_evenly},
-    {"emit.11", "without a lit cell the whole square is filled",
-     no_projection_fills_the_square},
-    {"emit.12", "a projection map changes no light's power through its lit cells",
-     projection_scales_power})
+    {"emit.9", "seed, map, pass and photon each change the draws", every_source_sends_others})
