@@ -201,32 +201,92 @@ static double draw_noise(uint64_t index)
     return u - 0.5; // variance 1/12
 }
 
-// A is 10 % too bright; B is the mean of two halves with noise. The product of the halves has
-// mean 0.01 and, per pixel, variance 2 d^2 s^2 + s^4 with d = 0.1, s^2 = 1/12.
-static void halves_take_the_noise_out(void)
+/// A picture of 1 with noise in two halves, channels in the order whole, first, second half; it
+/// is all in the layer named, or in none that is stored ("").
+static pm_image make_halved(const char *layer)
 {
-    static const char *const names[9] = {"R",       "G",       "B",       "half1.R", "half1.G",
-                                         "half1.B", "half2.R", "half2.G", "half2.B"};
-    pm_image a = make(SIDE, SIDE);
-    pm_image b;
-    CHECK_OK(pm_image_make(SIDE, SIDE, names, 9, &b));
-    fill(&a, 0, 1.1, 1.1, 1.1);
+    char names[9][PM_IMAGE_NAME_ROOM];
+    const char *name[9];
+    const char *dot = layer[0] != '\0' ? "." : "";
+    for (int i = 0; i < 9; i++) {
+        static const char *const prefix[3] = {"", "half1.", "half2."};
+        snprintf(names[i], sizeof names[i], "%s%s%s%c", prefix[i / 3], layer, dot,
+                 "RGB"[i % 3]);
+        name[i] = names[i];
+    }
+    pm_image image;
+    CHECK_OK(pm_image_make(SIDE, SIDE, name, 9, &image));
     for (int i = 0; i < SIDE * SIDE; i++) {
         double one = 1.0 + draw_noise(2 * (uint64_t)i);
         double two = 1.0 + draw_noise(2 * (uint64_t)i + 1);
         for (int c = 0; c < 3; c++) {
-            b.plane[c][i] = (float)(0.5 * (one + two));
-            b.plane[3 + c][i] = (float)one;
-            b.plane[6 + c][i] = (float)two;
+            image.plane[c][i] = (float)(0.5 * (one + two));
+            image.plane[3 + c][i] = (float)one;
+            image.plane[6 + c][i] = (float)two;
         }
     }
+    return image;
+}
+
+// A is 10 % too bright; B is the mean of two halves with noise. The product of the halves has
+// mean 0.01 and, per pixel, variance 2 d^2 s^2 + s^4 with d = 0.1, s^2 = 1/12.
+static void check_halved(const pm_compare_part *part)
+{
     double pixels = (SIDE - 8) * (SIDE - 8);
     double variance = 2.0 * 0.01 / 12.0 + 1.0 / 144.0;
-    pm_compare_part part = measure(&a, &b, "", true);
     double bound = pm_chance_bound(variance, pixels);
-    CHECK_NEAR(part.rel_mse * part.mean_b * part.mean_b, 0.01, bound);
-    CHECK(part.halves && !part.noise_known);
+    CHECK_NEAR(part->rel_mse * part->mean_b * part->mean_b, 0.01, bound);
+    CHECK(part->halves && !part->noise_known);
     CHECK_THAT(bound < 0.5 / 24.0, "a formula without halves, 0.01 + 1/24, would be found out");
+}
+
+static void halves_take_the_noise_out(void)
+{
+    pm_image a = make(SIDE, SIDE);
+    pm_image b = make_halved("");
+    fill(&a, 0, 1.1, 1.1, 1.1);
+    pm_compare_part part = measure(&a, &b, "", true);
+    check_halved(&part);
+    pm_image_free(&a);
+    pm_image_free(&b);
+}
+
+/// The image with R G B of 1 before its channels.
+static pm_image with_total(pm_image *layer)
+{
+    const char *name[12] = {"R", "G", "B"};
+    pm_image image;
+    for (int i = 0; i < 9; i++) {
+        name[3 + i] = layer->name[i];
+    }
+    CHECK_OK(pm_image_make(SIDE, SIDE, name, 12, &image));
+    fill(&image, 0, 1.0, 1.0, 1.0);
+    for (int i = 0; i < 9; i++) {
+        memcpy(image.plane[3 + i], layer->plane[i], SIDE * SIDE * sizeof(float));
+    }
+    pm_image_free(layer);
+    return image;
+}
+
+// The halves of a layer serve that layer, and neither another nor the whole picture.
+static void halves_of_a_layer_are_its_own(void)
+{
+    pm_image a = make(SIDE, SIDE);
+    pm_image layer = make_halved("caustic");
+    pm_image b = with_total(&layer);
+    fill(&a, 0, 1.5, 1.5, 1.5);
+    fill(&a, 3, 1.1, 1.1, 1.1);
+    pm_compare_part part = measure(&a, &b, "caustic", true);
+    check_halved(&part);
+    part = measure(&a, &b, "", true);
+    CHECK(!part.halves && fabs(part.rel_mse - 0.25) < 1e-6);
+    pm_image_free(&b);
+
+    b = make_halved(""); // halves of the whole alone
+    strcpy(b.name[3], "caustic.R");
+    strcpy(b.name[4], "caustic.G");
+    strcpy(b.name[5], "caustic.B");
+    CHECK(!measure(&a, &b, "caustic", true).halves);
     pm_image_free(&a);
     pm_image_free(&b);
 }
@@ -326,7 +386,9 @@ PM_TESTS({"compare.1", "errors of constant pictures have their closed form",
           bad_pairs_are_refused},
          {"compare.7", "halves take the reference's own noise out of the error",
           halves_take_the_noise_out},
-         {"compare.8", "the difference is red where A is brighter and blue where darker",
+         {"compare.8", "halves of a layer take the noise out of that layer",
+          halves_of_a_layer_are_its_own},
+         {"compare.9", "the difference is red where A is brighter and blue where darker",
           difference_is_painted_by_sign},
-         {"compare.9", "the program says by exit code and JSON what it found",
+         {"compare.10", "the program says by exit code and JSON what it found",
           program_tells_by_exit_code_and_json})
