@@ -10,7 +10,7 @@
 
 #include <stdlib.h>
 
-enum { COUNT = 200000, RINGS = 32, AROUND = 16 };
+enum { COUNT = 100000, RINGS = 32, AROUND = 16 };
 static const pm_rng_source source = {.seed = 3, .stream = PM_STREAM_TEST};
 
 /// Half angles of beam and cutoff [rad].
