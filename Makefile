@@ -210,7 +210,7 @@ $(EDITED:.o=.c): $(WITHOUT)/core/%.c: core/%.c tests/bench/without-caustics/%.se
 
 $(EDITED): %.o: %.c $(BUILD)/flags
 	$(call tell,$(CC) $<)
-	$(HIDE)$(COMPILE_C) -c -o $@ $<
+	$(HIDE)$(COMPILE_C) -Wno-unused-parameter -c -o $@ $<
 
 $(BIN)/render-without-caustics: $(BUILD)/$(MAIN_render).o $(EDITED) \
   $(filter-out $(EDITED:$(WITHOUT)/%=$(BUILD)/%),$(CORE))

@@ -16,19 +16,17 @@ static bool lives(const pm_plan *plan, const pm_render_settings *settings, pm_pl
     return plan->item[part].needed && pm_render_shows(settings, layer);
 }
 
-/// Whether the picture asks the map of `kind`. Gather rays that went on one bounce meet
-/// caustics on their way, so indirect light asks the caustic map too.
+/// Whether the picture asks the map of `kind`. Gather rays find caustics in the global map.
 static bool asks(const pm_plan *plan, const pm_render_settings *settings, pm_map_kind kind)
 {
     bool caustic = lives(plan, settings, PM_PLAN_CAUSTIC, PM_LAYER_CAUSTIC);
     bool indirect = lives(plan, settings, PM_PLAN_INDIRECT, PM_LAYER_INDIRECT);
     bool from_global = settings->light.caustics_global;
-    bool extended = indirect && settings->light.rays > 0;
     switch (kind) {
     case PM_MAP_GLOBAL:
         return indirect || (caustic && from_global);
     case PM_MAP_CAUSTIC:
-        return !from_global && (caustic || (extended && plan->item[PM_PLAN_CAUSTIC].needed));
+        return caustic && !from_global;
     default:
         return lives(plan, settings, PM_PLAN_VOLUME, PM_LAYER_VOLUME);
     }

@@ -1,0 +1,2 @@
+# The caustic layer is not asked for.
+/sources->caustic, at, path/d

@@ -1,0 +1,1 @@
+/\.caustic_only = /d
