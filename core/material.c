@@ -177,7 +177,7 @@ static void sample_glossy(const pm_lobes *lobes, pm_spectrum albedo, pm_rng *rng
         scatter->wo = pm_vec_normalize(pm_vec_reflect(lobes->wi, lobes->normal));
         return;
     }
-    double unmasked = cos_o / pm_microfacet_seen(facets_of(lobes), pm_least(1.0, cos_o));
+    double unmasked = cos_o / pm_microfacet_seen(facets_of(lobes), cos_o);
     pm_spectrum fresnel = mirror_reflectance(lobes->material, pm_least(1.0, cos_i));
     for (int c = 0; c < 3; c++) {
         scatter->weight.c[c] = albedo.c[c] > 0.0 ? fresnel.c[c] * unmasked / albedo.c[c] : 0.0;
@@ -234,7 +234,7 @@ static double glossy_pdf(const pm_lobes *lobes, pm_vec3 wo)
     double length2 = pm_vec_dot(half, half);
     double cos2 = square(cosine_of(lobes, half)) / length2;
     double sin2 = pm_vec_dot(flat, flat) / length2;
-    double cosine = pm_least(1.0, cosine_of(lobes, lobes->wi));
+    double cosine = cosine_of(lobes, lobes->wi);
     pm_microfacet facets = facets_of(lobes);
     return 0.25 * pm_microfacet_density(facets, cos2, sin2) /
            pm_microfacet_seen(facets, cosine);
@@ -245,7 +245,7 @@ static pm_spectrum glossy_value(const pm_lobes *lobes, pm_vec3 wo)
 {
     double length = pm_vec_length(pm_vec_add(lobes->wi, wo)); // 2 cos(wi, h)
     pm_spectrum fresnel = mirror_reflectance(lobes->material, pm_least(1.0, 0.5 * length));
-    double seen = pm_microfacet_seen(facets_of(lobes), pm_least(1.0, cosine_of(lobes, wo)));
+    double seen = pm_microfacet_seen(facets_of(lobes), cosine_of(lobes, wo));
     return pm_spectrum_scale(fresnel, glossy_pdf(lobes, wo) / seen);
 }
 

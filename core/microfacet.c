@@ -16,7 +16,7 @@ double pm_microfacet_density(pm_microfacet facets, double cos2, double sin2)
 
 double pm_microfacet_seen(pm_microfacet facets, double cosine)
 {
-    double sin2 = (1.0 - cosine) * (1.0 + cosine);
+    double sin2 = pm_most(0.0, (1.0 - cosine) * (1.0 + cosine)); // a cosine may round past 1
     double across = facets.alpha * sqrt(sin2);
     if (facets.kind == PM_MICROFACET_GGX) {
         return 0.5 * (cosine + sqrt(cosine * cosine + across * across));
