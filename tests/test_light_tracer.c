@@ -234,6 +234,65 @@ static void the_sun_under_water_has_a_closed_form(void)
     pm_scenes_free(&s);
 }
 
+// A lossless glass ball around a point light in a globe: all light is a caustic of even
+// irradiance E, which the globe makes E / (1 - rho).
+static void a_light_in_glass_fills_a_globe(void)
+{
+    pm_scenes s;
+    pm_scenes_begin(&s);
+    const double rho[3] = {0.5, 0.25, 0.75};
+    pm_scenes_globe(&s, 1.0, pm_scenes_diffuse(&s, pm_rgb(rho[0], rho[1], rho[2])));
+    pm_scenes_wear(&s, pm_shapes_sphere(pm_vec(0.0, 0.0, 0.0), 0.2), pm_scenes_glass(&s, 1.5));
+    pm_scenes_point(&s, pm_vec(0.0, 0.0, 0.0), pm_gray(4.0 * PM_PI));
+    pm_scenes_ready(&s);
+    pm_pictures_look(&s, pm_vec(0.0, 0.3, 0.0), pm_vec(0.0, 1.0, 0.0), 1.0, 8);
+    pm_reference_settings settings = pm_references_settings(2);
+    settings.light_paths = 60000;
+    pm_image image = pm_references_take(&s, &settings, NULL);
+    pm_pictures_means got = pm_references_means(&image);
+    CHECK(pm_spectrum_is_black(got.mean[PM_LAYER_DIRECT]));
+    for (int c = 0; c < 3; c++) {
+        double caustic = rho[c] / PM_PI;
+        CHECK_CLOSE("caustic", got.mean[PM_LAYER_CAUSTIC].c[c], caustic,
+                    got.variance[PM_LAYER_CAUSTIC].c[c], 0.0);
+        double indirect = caustic * rho[c] / (1.0 - rho[c]);
+        double variance = got.variance[PM_LAYER_INDIRECT].c[c];
+        CHECK_THAT(25.0 * variance < 0.01 * indirect * indirect, "too noisy");
+        CHECK_CLOSE("indirect", got.mean[PM_LAYER_INDIRECT].c[c], indirect, variance, 0.0);
+    }
+    pm_image_free(&image);
+    pm_scenes_free(&s);
+}
+
+// Lamps are met by chance, and rough metal takes light from anywhere: nothing here is left for
+// light paths.
+static void what_eyes_find_is_left_to_them(void)
+{
+    const double cone[2] = {0.1, 0.2}; // on the rough square
+    pm_scenes s;
+    pm_scenes_begin(&s);
+    int rough = pm_scenes_rough_mirror(&s, PM_MICROFACET_GGX, 0.1);
+    int mirror = pm_scenes_mirror(&s, pm_gray(1.0));
+    pm_scenes_globe(&s, 2.0, pm_scenes_diffuse(&s, pm_gray(0.5)));
+    pm_scenes_wear(&s, pm_scenes_square(1.0, 0.0, false), rough);
+    pm_scenes_spot(&s, pm_vec(0.0, 0.0, 1.0), pm_vec(0.0, 0.0, -1.0), cone, pm_gray(1.0));
+    int lamp = pm_scenes_wear(&s, pm_scenes_square(1.0, -0.5, true), PM_NONE);
+    pm_scenes_lamp(&s, lamp, pm_gray(1.0));
+    pm_scenes_wear(&s, pm_scenes_square(4.0, -1.0, false), mirror);
+    pm_scenes_ready(&s);
+    pm_pictures_look(&s, pm_vec(0.0, 1.0, 0.5), pm_vec(0.0, 1.5, 0.5), 1.0, 8);
+    film_pair all = films_of(&s, 2000, true);
+    CHECK(means_of(&all, NULL, 0).mean[PM_LAYER_CAUSTIC].c[0] > 0.0);
+    films_free(&all);
+
+    film_pair left = films_of(&s, 2000, false);
+    for (int i = 0; i < left.pixels * PM_LAYER_COUNT; i++) {
+        CHECK(pm_spectrum_is_black(left.half[0][i]));
+    }
+    films_free(&left);
+    pm_scenes_free(&s);
+}
+
 static void threads_do_not_matter(void)
 {
     const int threads[3] = {1, 2, 7};
@@ -268,4 +327,8 @@ PM_TESTS({"light_tracer.1",
           the_two_passes_share_the_light},
          {"light_tracer.5", "the floor of a calm sea has the sun's light less Fresnel's share",
           the_sun_under_water_has_a_closed_form},
-         {"light_tracer.6", "any number of threads makes the same film", threads_do_not_matter})
+         {"light_tracer.6", "a point light in glass fills a globe by E / (1 - rho)",
+          a_light_in_glass_fills_a_globe},
+         {"light_tracer.7", "what eye paths find is left to them",
+          what_eyes_find_is_left_to_them},
+         {"light_tracer.8", "any number of threads makes the same film", threads_do_not_matter})
