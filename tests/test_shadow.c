@@ -132,7 +132,7 @@ static void lights_share_alike(void)
     pm_scenes s;
     pm_scenes_begin(&s);
     pm_scenes_room(&s, 2.0, pm_scenes_diffuse(&s, pm_gray(0.5)));
-    pm_scenes_point(&s, pm_vec(0.5, 0.0, 0.0), pm_gray(1e6));
+    pm_scenes_point(&s, pm_vec(0.0, 0.5, 0.0), pm_gray(1e6));
     pm_scenes_point(&s, pm_vec(0.0, 0.5, 0.0), pm_gray(0.0));
     pm_scenes_point(&s, pm_vec(0.0, 0.5, 0.0), pm_gray(1e-6));
     pm_scenes_sky(&s, pm_gray(1.0));
@@ -144,6 +144,7 @@ static void lights_share_alike(void)
         CHECK_THAT(maps.map[i].count == want[i], "light %d has %u", i, maps.map[i].count);
         CHECK(want[i] == 0 || (maps.map[i].balanced && maps.map[i].kind == PM_MAP_GLOBAL));
     }
+    // They stand in the same place, but are no copies of each other.
     CHECK(memcmp(maps.map[0].photons, maps.map[2].photons, sizeof(pm_photon)) != 0);
     CHECK(ask_floor(&maps, 1, 0.0, 0.0) == PM_SHADOW_UNSURE);
     CHECK(ask_floor(&maps, 3, 0.0, 0.0) == PM_SHADOW_UNSURE);
