@@ -5,6 +5,7 @@
 #include "irradiance.h"
 #include "lattice.h"
 #include "light.h"
+#include "look.h"
 #include "lookup.h"
 
 #include <stddef.h>
@@ -14,6 +15,10 @@
 #define PLACE_GATHER 0x40000000u
 #define PLACE_DIRECT 0x20000000u
 #define PLACE_GLINT 0x30000000u
+
+// A lookup is too near for its disc within so many of its radii. At one radius the rays just
+// beyond still land where discs hang over the edge.
+#define NEAR 2.0
 
 /// What a lattice's shift is for.
 enum { FOR_LIGHTS, FOR_GATHER, FOR_GLINT };
@@ -129,67 +134,10 @@ static pm_status ask_indirect_seen(void *context, const pm_vertex *at, pm_spectr
 
 // --- final gather ----------------------------------------------------------------------------
 
-/// A direction to look in, and the factor on the radiance that comes from there.
-typedef struct {
-    pm_vec3 wo;
-    pm_spectrum response;
-} look;
-
-/// Sum of the mean albedos of the D lobes.
-static double diffuse_albedo(const pm_lobes *lobes)
-{
-    double sum = 0.0;
-    for (int i = 0; i < lobes->count; i++) {
-        sum += lobes->lobe[i].specular ? 0.0 : pm_spectrum_mean(lobes->lobe[i].albedo);
-    }
-    return sum;
-}
-
-/// The D lobe that `share`, in [0, sum of their mean albedos), falls into.
-static int diffuse_lobe(const pm_lobes *lobes, double share)
-{
-    int last = 0;
-    for (int i = 0; i < lobes->count; i++) {
-        double albedo = pm_spectrum_mean(lobes->lobe[i].albedo);
-        if (lobes->lobe[i].specular || albedo == 0.0) {
-            continue;
-        }
-        last = i;
-        if (share < albedo) {
-            break;
-        }
-        share -= albedo;
-    }
-    return last;
-}
-
-/// Drawn by a D lobe, itself drawn by its albedo.
-static look look_by_lobe(const pm_lobes *lobes, pm_rng *rng)
-{
-    double sum = diffuse_albedo(lobes);
-    double share = sum * pm_rng_draw(rng);
-    int which = diffuse_lobe(lobes, share);
-    pm_spectrum albedo = lobes->lobe[which].albedo;
-    pm_scatter scatter;
-    pm_material_sample(lobes, which, rng, &scatter);
-    pm_spectrum response = pm_spectrum_scale(albedo, sum / pm_spectrum_mean(albedo));
-    return (look){scatter.wo, pm_spectrum_mul(response, scatter.weight)};
-}
-
-/// Distributed by the cosine: L = mean of f pi L_i.
-static look look_by_cosine(const pm_lobes *lobes, const double u[2])
-{
-    pm_frame frame = pm_frame_around(lobes->normal);
-    double radius = sqrt(u[0]);
-    double phi = 2.0 * PM_PI * u[1];
-    pm_vec3 local = pm_vec(radius * cos(phi), radius * sin(phi), sqrt(1.0 - u[0]));
-    pm_vec3 wo = pm_frame_to_world(&frame, local);
-    return (look){wo, pm_spectrum_scale(pm_material_evaluate(lobes, wo), PM_PI)};
-}
-
 /// What one ray brings to a vertex.
-static pm_status gather_ray(const pm_compose *compose, const pm_vertex *at, const look *along,
-                            pm_rng *rng, pm_spectrum *radiance, uint64_t *cut)
+static pm_status gather_ray(const pm_compose *compose, const pm_vertex *at,
+                            const pm_look *along, pm_rng *rng, pm_spectrum *radiance,
+                            uint64_t *cut)
 {
     *radiance = pm_gray(0.0);
     if (pm_spectrum_is_black(along->response)) {
@@ -211,7 +159,7 @@ static pm_status ask_indirect_gathered(void *context, const pm_vertex *at,
     uint32_t rays = per_sample(gather->settings.rays, spp);
     bool lambertian = pm_material_is_lambertian(&at->lobes);
     *radiance = pm_gray(0.0);
-    if (diffuse_albedo(&at->lobes) == 0.0) {
+    if (pm_look_albedo(&at->lobes) == 0.0) {
         return PM_OK;
     }
     double shift[2];
@@ -220,8 +168,8 @@ static pm_status ask_indirect_gathered(void *context, const pm_vertex *at,
         double u[2];
         pm_lattice_point(shift, at->sample + spp * i, rays * spp, u);
         pm_rng rng = sample_rng(gather, at, PLACE_GATHER + at->vertex * rays + i);
-        look along =
-            lambertian ? look_by_cosine(&at->lobes, u) : look_by_lobe(&at->lobes, &rng);
+        pm_look along =
+            lambertian ? pm_look_by_cosine(&at->lobes, u) : pm_look_by_lobe(&at->lobes, &rng);
         pm_spectrum one;
         PM_TRY(gather_ray(gather->compose, at, &along, &rng, &one, &gather->cut));
         *radiance = pm_spectrum_add(*radiance, one);
@@ -261,12 +209,12 @@ static pm_status near_indirect(pm_gather *gather, const pm_vertex *at, pm_rng *r
                                pm_spectrum *radiance)
 {
     *radiance = pm_gray(0.0);
-    if (diffuse_albedo(&at->lobes) == 0.0) {
+    if (pm_look_albedo(&at->lobes) == 0.0) {
         return PM_OK;
     }
     pm_compose last = *gather->compose;
     last.ask.global = ask_global;
-    look along = look_by_lobe(&at->lobes, rng);
+    pm_look along = pm_look_by_lobe(&at->lobes, rng);
     return gather_ray(&last, at, &along, rng, radiance, &gather->cut);
 }
 
@@ -278,15 +226,17 @@ static pm_status ask_global_or_near(void *context, const pm_vertex *at, pm_rng *
     pm_estimate found;
     PM_TRY(pm_lookup_global(gather, at, &found));
     double leg = pm_vec_length(pm_vec_sub(at->hit.position, at->from));
-    if (leg >= found.radius) {
+    if (leg >= NEAR * found.radius) {
         *radiance = found.value;
         return PM_OK;
     }
     gather->near++;
-    pm_spectrum caustic;
+    pm_spectrum caustic = pm_gray(0.0);
     pm_spectrum indirect;
     pm_spectrum direct = near_direct(gather, at, rng);
-    PM_TRY(pm_lookup_marked(gather, at, found.radius, &caustic));
+    if (gather->marked) {
+        PM_TRY(pm_lookup_marked(gather, at, found.radius, &caustic));
+    }
     PM_TRY(near_indirect(gather, at, rng, &indirect));
     *radiance = pm_spectrum_add(direct, pm_spectrum_add(caustic, indirect));
     return PM_OK;
@@ -296,9 +246,10 @@ void pm_gather_sources(pm_gather *gather, pm_compose *compose)
 {
     bool has_global = gather->map[PM_MAP_GLOBAL] != NULL;
     bool has_caustic = gather->map[PM_MAP_CAUSTIC] != NULL;
-    bool marked = gather->settings.caustics_global;
+    bool own = !gather->settings.caustics_global;
     bool gathers = gather->settings.rays > 0;
     gather->compose = compose;
+    gather->marked = pm_lookup_has_marked(gather);
     if (gather->irradiance != NULL) {
         gather->irradiance_reach = pm_irradiance_reach(gather->irradiance);
     }
@@ -308,9 +259,9 @@ void pm_gather_sources(pm_gather *gather, pm_compose *compose)
         .sky = ask_sky,
         .glint = ask_glint,
         .direct = ask_direct,
-        .caustic = !marked && has_caustic                   ? ask_caustic
-                   : marked && pm_lookup_has_marked(gather) ? ask_caustic_marked
-                                                            : NULL,
+        .caustic = own && has_caustic       ? ask_caustic
+                   : !own && gather->marked ? ask_caustic_marked
+                                            : NULL,
         .indirect = !has_global ? NULL
                     : gathers   ? ask_indirect_gathered
                                 : ask_indirect_seen,

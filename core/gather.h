@@ -2,10 +2,9 @@
 // (lookup.h), the final gather. One pm_gather a thread; the maps behind it are shared and only
 // read.
 //
-// A gather ray that meets a surface nearer than the reach of the estimate there would see the
-// disc hang over the corner between the two. It goes on one bounce instead: direct light by
+// A gather ray that meets a surface within two radii of the estimate there comes out of a
+// corner, where the disc hangs over the edge. It goes on one bounce instead: direct light by
 // shadow rays, caustics by the global map, the rest from where one more ray ends.
-// @source Jensen 2001, ch. 9
 #ifndef PM_GATHER_H
 #define PM_GATHER_H
 
@@ -29,15 +28,16 @@ typedef struct {
     const pm_photon_map *irradiance; // at places of the global map (irradiance.h), or NULL
     const pm_shadow_maps *shadows;   // or NULL
     pm_neighbour *scratch;           // settings.estimate.k entries, at least PM_SHADOW_K
-    double irradiance_reach;         // of these places; set by pm_gather_sources()
+    // set by pm_gather_sources():
+    double irradiance_reach; // of these places
+    bool marked;             // the global map has caustic-marked photons
     // what the estimates in the global map used, summed since the user set them to 0; and what
     // was cut
     double radius_sum;
     uint64_t found_sum;
     uint64_t lookups;
-    uint64_t cut;  // gather rays ended after too many S events in a row
-    uint64_t near; // gather rays that went on one bounce, having met a surface nearer than the
-                   // reach of the estimate there
+    uint64_t cut;                        // gather rays ended after too many S events in a row
+    uint64_t near;                       // gather rays that went on one bounce
     uint64_t shadow_rays, shadow_spared; // as in pm_direct_query
 } pm_gather;
 

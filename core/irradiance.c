@@ -1,5 +1,8 @@
 // Invariant: a place has the position and the coarse normal of one photon, and the estimate
-// that the others around it give.
+// there.
+//
+// The photon itself counts, though near it photons are known to be: a point takes the nearest
+// place, and between the two no other place is, which lacks as much.
 #include "irradiance.h"
 
 #include "coarse_normal.h"
@@ -12,9 +15,9 @@
 #define COLUMNS 256 // places are dealt to threads as pixels of a picture this wide
 #define ALIKE 0.9   // least cosine between normals of surfaces that face alike
 #define SAME 0.99   // and between a surface's normal and its coarse one
-#define ABOVE                                                                                  \
-    0x1p-17 // from where the surface below a photon is looked for, over its largest
-            // coordinate: far more than float rounding
+// From where the surface under a photon is looked for, over the photon's largest coordinate:
+// far more than float rounding.
+#define ABOVE 0x1p-17
 
 /// What a place keeps in the direction that it has no other use for.
 enum { RADIUS, FOUND };
@@ -22,7 +25,7 @@ enum { RADIUS, FOUND };
 typedef struct {
     const pm_intersector *world;
     const pm_photon_map *global;
-    pm_estimate_settings settings; // with one photon more: the one that stands there
+    const pm_estimate_settings *settings;
     uint32_t spacing;
     pm_photon_map *places;
 } making;
@@ -47,31 +50,12 @@ static pm_vec3 normal_under(const pm_intersector *world, const pm_photon_view *p
     return pm_vec_dot(normal, photon->normal) >= SAME ? normal : photon->normal;
 }
 
-/// Takes the photon that stands at the middle out of an estimate.
-static pm_status without_itself(const pm_estimate_settings *settings, pm_spectrum power,
-                                pm_estimate *found)
-{
-    double weight;
-    double normalisation;
-    PM_TRY(pm_filter_weight(settings->filter, settings->constants, 0.0, &weight));
-    PM_TRY(pm_filter_normalisation(settings->filter, settings->constants, &normalisation));
-    double area = normalisation * PM_PI * found->radius * found->radius;
-    for (int c = 0; c < 3; c++) {
-        // Where it was alone, rounding may leave less than nothing.
-        found->value.c[c] = pm_most(0.0, found->value.c[c] - power.c[c] * weight / area);
-    }
-    found->found--;
-    return PM_OK;
-}
-
 static pm_status estimate_at(const making *pass, uint32_t index, pm_neighbour *scratch,
                              pm_estimate *found)
 {
     pm_photon_view photon = pm_store_unpack(pass->global, index);
     pm_estimate_point point = {photon.position, normal_under(pass->world, &photon)};
-    PM_TRY(pm_estimate_irradiance(pass->global, &pass->settings, &point, scratch, found));
-    // Of photons in one spot any may be the one that was left out already.
-    return found->floored ? PM_OK : without_itself(&pass->settings, photon.power, found);
+    return pm_estimate_irradiance(pass->global, pass->settings, &point, scratch, found);
 }
 
 static pm_status make_place(const void *context, void *scratch, int x, int y)
@@ -98,10 +82,10 @@ static pm_status make_place(const void *context, void *scratch, int x, int y)
 static pm_status scratch_begin(const void *context, void **scratch)
 {
     const making *pass = context;
-    *scratch = calloc(pass->settings.k, sizeof(pm_neighbour));
+    *scratch = calloc(pass->settings->k, sizeof(pm_neighbour));
     return *scratch != NULL
                ? PM_OK
-               : PM_FAIL(PM_ENOMEM, "no memory for %u neighbours", pass->settings.k);
+               : PM_FAIL(PM_ENOMEM, "no memory for %u neighbours", pass->settings->k);
 }
 
 static void scratch_end(void *context, void *scratch)
@@ -125,22 +109,14 @@ static pm_status make_all(making *pass)
     return pm_balance_build(pass->places);
 }
 
-static pm_status check(const pm_estimate_settings *settings, uint32_t spacing)
-{
-    if (settings->k == 0 || settings->k == UINT32_MAX) {
-        return PM_FAIL(PM_EINPUT, "k must lie in 1..%u, got %u", UINT32_MAX - 1, settings->k);
-    }
-    if (spacing == 0) {
-        return PM_FAIL(PM_EINPUT, "%s", "one place for 0 photons: spacing must be >= 1");
-    }
-    return PM_OK;
-}
-
 pm_status pm_irradiance_make(const pm_intersector *world, const pm_photon_map *global,
                              const pm_estimate_settings *settings, uint32_t spacing,
                              pm_photon_map *places)
 {
-    PM_TRY(check(settings, spacing));
+    if (settings->k == 0 || spacing == 0) {
+        return PM_FAIL(PM_EINPUT, "k and spacing must be >= 1, got %u and %u", settings->k,
+                       spacing);
+    }
     pm_photon_map made = {
         .kind = PM_MAP_GLOBAL,
         .unpacked = true,
@@ -148,8 +124,7 @@ pm_status pm_irradiance_make(const pm_intersector *world, const pm_photon_map *g
         .emitted = global->emitted,
         .scale = 1.0,
     };
-    making pass = {world, global, *settings, spacing, &made};
-    pass.settings.k++;
+    making pass = {world, global, settings, spacing, &made};
     uint32_t count = (uint32_t)(((uint64_t)global->count + spacing - 1) / spacing);
     PM_TRY(pm_photon_map_reserve(&made, count));
     made.count = count;

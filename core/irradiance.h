@@ -9,9 +9,7 @@
 
 #define PM_IRRADIANCE_SPACING 4 // photons of the map for one place
 
-/// Irradiance at every `spacing`-th photon of `global`, on the side that photon came from. The
-/// photon itself is left out of its own estimate: near it photons are known to be, which says
-/// nothing about how many fall there.
+/// Irradiance at every `spacing`-th photon of `global`, on the side that photon came from.
 ///
 /// @param world     that the photons were traced in; asked for the exact normals
 /// @param global    balanced and scaled
