@@ -172,32 +172,41 @@ static uint64_t count_throwing(const pm_scene *scene)
     return count;
 }
 
+/// Part number `place` of `count` cut into `parts` that differ by one at most.
+static uint64_t even_part(uint64_t count, uint64_t place, uint64_t parts)
+{
+    return count * (place + 1) / parts - count * place / parts;
+}
+
+/// The map of light number `light`, alone in the pass.
+static pm_status make_one(const pm_intersector *world, uint32_t seed, int light,
+                          uint64_t *share, pm_progress *progress, pm_photon_map *map)
+{
+    pm_rng_source source = {seed, PM_STREAM_SHADOW, (uint32_t)light};
+    shadow_pass pass = {
+        .world = world,
+        .emission = {world->scene, source, share[light], share, NULL},
+        .map = map,
+        .progress = progress,
+    };
+    return share[light] == 0 ? PM_OK : make_map(&pass);
+}
+
 static pm_status make_maps(const pm_intersector *world, uint32_t seed, uint64_t count,
                            uint64_t *share, pm_shadow_maps *maps)
 {
     const pm_scene *scene = world->scene;
-    uint64_t left = count_throwing(scene);
-    pm_progress progress = pm_progress_begin("shadows", left == 0 ? 0 : count);
+    uint64_t parts = count_throwing(scene);
+    uint64_t place = 0;
     pm_status status = PM_OK;
+    pm_progress progress = pm_progress_begin("shadows", count);
     for (int i = 0; i < scene->light_count && status == PM_OK; i++) {
         maps->map[i] = (pm_photon_map){.kind = PM_MAP_GLOBAL, .scale = 1.0};
-        if (!throws_shadow(&scene->lights[i])) {
-            continue;
+        if (parts > 0 && throws_shadow(&scene->lights[i])) {
+            share[i] = even_part(count, place++, parts);
+            status = make_one(world, seed, i, share, &progress, &maps->map[i]);
+            share[i] = 0;
         }
-        share[i] = count / left; // what is left, evenly among the lights that are left
-        count -= share[i];
-        left--;
-        if (share[i] > 0) {
-            pm_rng_source source = {seed, PM_STREAM_SHADOW, (uint32_t)i};
-            shadow_pass pass = {
-                .world = world,
-                .emission = {scene, source, share[i], share, NULL},
-                .map = &maps->map[i],
-                .progress = &progress,
-            };
-            status = make_map(&pass);
-        }
-        share[i] = 0;
     }
     pm_progress_end(&progress);
     return status;
