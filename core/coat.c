@@ -49,8 +49,7 @@ static void add_facet(const interface *at, double slope_x, double slope_y, doubl
     double cos_t;
     double fresnel = pm_fresnel_dielectric(cos_i, at->eta, &cos_t);
     double mirrored = 2.0 * cos_i * upright - at->cosine;
-    double beyond = at->eta * at->cosine + (cos_t - at->eta * cos_i) * upright;
-    double refracted = fresnel < 1.0 ? beyond : 0.0;
+    double refracted = at->eta * at->cosine + (cos_t - at->eta * cos_i) * upright;
     sum->met += weight * seen;
     sum->reflected += weight * seen * fresnel * unmasked(at->facets, mirrored);
     sum->through += weight * seen * (1.0 - fresnel) * unmasked(at->facets, refracted);
