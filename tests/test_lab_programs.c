@@ -11,6 +11,8 @@
 
 static const char square[] = "scenes/square-over-floor.xml"; // 0.752275 W/m^2 below its middle
 static const char globe[] = "scenes/integrating-sphere.xml"; // rho 0.6, 4 pi W, radius 1
+static const char sparse[] = "scenes/sparse.xml";            // 0.052589 W in its caustic map
+static const char open_air[] = "scenes/mesh-spheres.xml";    // one point light over a floor
 static const char spheres[] = "scenes/cornell-spheres.xml";  // with a caustic
 
 static char *run(const char *line, const char *scene, const char *output)
@@ -50,6 +52,80 @@ static double number(json_t *object, const char *name)
 static double channel(json_t *object, const char *name, size_t which)
 {
     return json_number_value(json_array_get(key(object, name), which));
+}
+
+// --- emission and tracing: where photons are sent
+// ---------------------------------------------
+
+/// What is sent and what is not add up to the lights' flux.
+static void check_books(json_t *report, json_t *sent, json_t *lights)
+{
+    json_t *projection = key(report, "projection");
+    for (size_t c = 0; c < 3; c++) {
+        double flux = 0.0;
+        for (size_t i = 0; i < json_array_size(lights); i++) {
+            flux += channel(json_array_get(lights, i), "flux", c);
+        }
+        double dark = channel(projection, "dark", c);
+        CHECK_NEAR(json_number_value(json_array_get(sent, c)) + dark, flux, 1e-12 * flux);
+    }
+    double all = number(projection, "cells");
+    double lit = all > 0.0 ? number(projection, "active") / all : 1.0;
+    CHECK_NEAR(number(projection, "saved"), 3000.0 / lit - 3000.0, 1.0); // of one light
+}
+
+static void aimed_programs_keep_the_books(void)
+{
+    static const char *const choice[2] = {"on", "off"};
+    for (int i = 0; i < 2; i++) {
+        char line[80];
+        snprintf(line, sizeof line, "emission {S} -n 3000 --projection %s --json", choice[i]);
+        json_t *emission = run_json(line, open_air, NULL);
+        json_t *lights = key(emission, "lights");
+        check_books(emission, key(emission, "power_sum"), lights);
+        json_t *projection = key(emission, "projection");
+        CHECK((number(projection, "cells") > 0.0) == (i == 0));
+        CHECK(number(json_array_get(lights, 0), "photons") == 3000.0);
+        CHECK_CONTAINS(json_string_value(key(projection, "why")), i == 0 ? "aimed" : "off");
+        snprintf(line, sizeof line, "tracing {S} -n 3000 --projection %s --json", choice[i]);
+        json_t *tracing = run_json(line, open_air, NULL);
+        check_books(tracing, key(key(tracing, "flux"), "emitted"), lights);
+        CHECK(number(tracing, "emitted") == 3000.0);
+        json_decref(emission);
+        json_decref(tracing);
+    }
+}
+
+static void closed_rooms_are_not_aimed_in(void)
+{
+    json_t *on = run_json("emission {S} -n 3000 --json", globe, NULL);
+    json_t *off = run_json("emission {S} -n 3000 --projection off --json", globe, NULL);
+    CHECK(number(key(on, "projection"), "cells") == 0.0);
+    CHECK(number(key(on, "projection"), "active") == 0.0);
+    CHECK(json_equal(key(on, "power_sum"), key(off, "power_sum")));
+    json_decref(on);
+    json_decref(off);
+}
+
+static void sparse_caustics_are_found(void)
+{
+    // The share of the lamp's power that meets the ball, from the scene's head; every photon
+    // that the map holds carries the same power.
+    enum { COUNT = 40000 };
+    double stored[2];
+    for (int i = 0; i < 2; i++) {
+        char line[80];
+        snprintf(line, sizeof line, "storage {S} -n %d --packing off --projection %s --json",
+                 COUNT, i == 0 ? "on" : "off");
+        json_t *report = run_json(line, sparse, NULL);
+        json_t *map = key(key(report, "maps"), "caustic");
+        stored[i] = number(map, "stored");
+        CHECK(number(map, "emitted") == COUNT);
+        CHECK_NEAR(channel(map, "power", 1), 0.052589, 5.0 * 0.052589 / sqrt(stored[i]));
+        json_decref(report);
+    }
+    CHECK_THAT(stored[0] > 50.0 * stored[1], "%g photons aimed, %g unaimed", stored[0],
+               stored[1]);
 }
 
 // --- storage --------------------------------------------------------------------------------
@@ -257,4 +333,10 @@ PM_TESTS({"lab_programs.1", "storage holds the power and the hits of the integra
          {"lab_programs.7", "filtering shows what the lecture's Gaussian loses",
           filtering_shows_what_the_lecture_loses},
          {"lab_programs.8", "a grid is dumped row by row", grids_are_dumped_row_by_row},
+         {"lab_programs.10", "emission and tracing say what was never sent, aimed or not",
+          aimed_programs_keep_the_books},
+         {"lab_programs.11", "in a closed room nothing is aimed",
+          closed_rooms_are_not_aimed_in},
+         {"lab_programs.12", "storage finds the caustic of a sparse scene, as its head says",
+          sparse_caustics_are_found},
          {"lab_programs.9", "the number of threads changes no byte", threads_change_no_byte})
