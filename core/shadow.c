@@ -180,7 +180,7 @@ static uint64_t even_part(uint64_t count, uint64_t place, uint64_t parts)
 
 /// The map of light number `light`, alone in the pass.
 static pm_status make_one(const pm_intersector *world, uint32_t seed, int light,
-                          uint64_t *share, pm_progress *progress, pm_photon_map *map)
+                          const uint64_t *share, pm_progress *progress, pm_photon_map *map)
 {
     pm_rng_source source = {seed, PM_STREAM_SHADOW, (uint32_t)light};
     shadow_pass pass = {
