@@ -132,10 +132,11 @@ $(BIN)/view: $(BUILD)/visualize/view.o $(VISUALIZE) $(VISUALIZE_VTK) $(CORE)
 	$(HIDE)$(LINK_CXX) -o $@ $^ $(VTK_LIBS) $(PART_LIBS)
 
 # The meshes are in git, so nothing else builds them.
-meshes: $(BUILD)/scenes/meshes/make ## write the meshes of the scenes again, byte for byte
+MAKE_MESHES := $(BUILD)/scenes/meshes/make
+meshes: $(MAKE_MESHES) ## write the meshes of the scenes again, byte for byte
 	$< scenes/meshes
 
-$(BUILD)/scenes/meshes/make: %: %.o $(BUILD)/core/file.o $(BUILD)/core/status.o
+$(MAKE_MESHES): %: %.o $(BUILD)/core/file.o $(BUILD)/core/status.o
 	$(call tell,link $@)
 	$(HIDE)$(LINK) -o $@ $^ -lm
 
@@ -164,6 +165,7 @@ ATTACKS := $(BUILD)/tests/attacks
 # Tests find programs by their full path, so that a test may change its folder.
 $(RUNNER): DEFINE = -DPM_TEST_BIN='"$(abspath $(BIN))"' $(if $(VIEW),,-DPM_TEST_WITHOUT='" view "')
 $(BUILD)/tests/test_runner.o: DEFINE = -DPM_TEST_ATTACKS='"$(abspath $(ATTACKS))"'
+$(BUILD)/tests/test_scenes.o: DEFINE = -DPM_TEST_MESHES='"$(abspath $(MAKE_MESHES))"'
 $(TESTS): DEFINE += -Itests
 
 $(BUILD)/tests/run: $(RUNNER) $(TESTS) $(CORE) $(VISUALIZE)
@@ -174,7 +176,7 @@ $(ATTACKS): $(BUILD)/tests/runner/attacks.o $(RUNNER) $(BUILD)/core/status.o
 	$(call tell,link $@)
 	$(HIDE)$(LINK) -o $@ $^ $(PART_LIBS)
 
-build-tests: all $(BUILD)/tests/run $(ATTACKS)
+build-tests: all $(BUILD)/tests/run $(ATTACKS) $(MAKE_MESHES)
 
 test: ## build, then run the tests (ONLY=tag for some, SAN=1 with sanitizers)
 	@$(AGAIN) build-tests
