@@ -195,15 +195,20 @@ static pm_status trace_chunk(const pm_light_run *run, uint64_t first, uint32_t c
     return PM_OK;
 }
 
+/// Takes a chunk's part, one chunk at a time; after a failure nothing more is taken.
 static void settle(pm_light_run *run, pm_status status, const pm_splatter *splatter,
                    uint32_t count)
 {
-    if (status != PM_OK && run->status == PM_OK) {
+    if (run->status != PM_OK) {
+        return;
+    }
+    if (status != PM_OK) {
+        strncpy(run->message, pm_status_message(), sizeof run->message - 1);
 #pragma omp atomic write
         run->status = status;
-        strncpy(run->message, pm_status_message(), sizeof run->message - 1);
+        return;
     }
-    for (size_t i = 0; status == PM_OK && i < splatter->count; i++) {
+    for (size_t i = 0; i < splatter->count; i++) {
         pm_spectrum *pixel = &run->film[splatter->splat[i].place];
         *pixel = pm_spectrum_add(*pixel, splatter->splat[i].radiance);
     }
@@ -216,17 +221,16 @@ static void run_chunk(pm_light_run *run, uint64_t chunk, pm_splatter *splatter)
     uint64_t first = chunk * CHUNK;
     uint64_t left = run->emission.count - first;
     uint32_t count = left < CHUNK ? (uint32_t)left : CHUNK;
-    pm_status seen;
+    pm_status status;
 #pragma omp atomic read
-    seen = run->status;
-    pm_status status = PM_OK;
-    if (seen == PM_OK) {
+    status = run->status;
+    if (splatter == NULL) {
+        status = PM_FAIL(PM_ENOMEM, "no memory for light paths");
+    } else if (status == PM_OK) {
         status = trace_chunk(run, first, count, splatter);
     }
 #pragma omp ordered
-    if (seen == PM_OK) {
-        settle(run, status, splatter, count);
-    }
+    settle(run, status, splatter, count);
 }
 
 static void run_chunks(pm_light_run *run)
@@ -237,22 +241,13 @@ static void run_chunks(pm_light_run *run)
     {
         pm_status_clear();
         pm_splatter *splatter = calloc(1, sizeof *splatter);
-        if (splatter == NULL) {
-#pragma omp critical
-            {
-#pragma omp atomic write
-                run->status = PM_ENOMEM;
-                strcpy(run->message, "no memory for light paths");
-            }
-        }
 #pragma omp for ordered schedule(dynamic, 1)
         for (int64_t chunk = 0; chunk < chunks; chunk++) {
-            if (splatter != NULL) {
-                run_chunk(run, (uint64_t)chunk, splatter);
-            }
+            run_chunk(run, (uint64_t)chunk, splatter);
         }
         free(splatter != NULL ? splatter->splat : NULL);
         free(splatter);
+        pm_status_clear(); // the run has kept the message
     }
     pm_progress_end(&run->progress);
 }
@@ -271,9 +266,10 @@ static int choose_lights(const pm_light_tracing *tracing, pm_light *chosen)
     return count;
 }
 
-static pm_status run_lights(const pm_light_tracing *tracing, const pm_scene *scene,
-                            uint64_t *share, pm_spectrum *film, uint64_t *cut)
+/// Everything, with room for the shares of all lights of `scene`, which are those that count.
+static pm_status run_lights(pm_light_run *run, const pm_scene *scene, uint64_t *share)
 {
+    const pm_light_tracing *tracing = run->tracing;
     PM_TRY(pm_emit_share(scene, NULL, tracing->count, share));
     uint64_t sent = 0;
     for (int i = 0; i < scene->light_count; i++) {
@@ -284,23 +280,15 @@ static pm_status run_lights(const pm_light_tracing *tracing, const pm_scene *sce
     }
     const pm_camera *camera = &scene->camera;
     double area = 4.0 * camera->tan_x * camera->tan_y / camera->width / camera->height;
-    pm_light_run run = {
-        .tracing = tracing,
-        .emission = {scene, tracing->source, tracing->count, share, NULL},
-        .per_film = 1.0 / (area * (double)tracing->count),
-        .film = film,
-        .cut = cut,
-    };
-    run_chunks(&run);
-    if (run.status != PM_OK) {
-        pm_status_clear();
-        return pm_status_fail(run.status, "%s", run.message);
-    }
-    return PM_OK;
+    run->emission = (pm_emission){scene, tracing->source, tracing->count, share, NULL};
+    run->per_film = 1.0 / (area * (double)tracing->count);
+    run_chunks(run);
+    return run->status == PM_OK ? PM_OK : pm_status_fail(run->status, "%s", run->message);
 }
 
 pm_status pm_light_tracer_run(const pm_light_tracing *tracing, pm_spectrum *film, uint64_t *cut)
 {
+    pm_light_run run = {.tracing = tracing, .film = film, .cut = cut};
     pm_scene scene = *tracing->world->scene;
     size_t room = (size_t)scene.light_count + 1;
     pm_light *lights = calloc(room, sizeof *lights);
@@ -311,7 +299,7 @@ pm_status pm_light_tracer_run(const pm_light_tracing *tracing, pm_spectrum *film
     } else {
         scene.light_count = choose_lights(tracing, lights);
         scene.lights = lights;
-        status = run_lights(tracing, &scene, share, film, cut);
+        status = run_lights(&run, &scene, share);
     }
     free(lights);
     free(share);
