@@ -303,7 +303,7 @@ static void density_is_that_of_the_draws(void)
 static void density_adds_up_to_what_faces(void)
 {
     // By even directions over the upper half, 2 pi sr. Coarse: it has a pole at outlines.
-    enum { DIRECTIONS = 60000 };
+    enum { DIRECTIONS = 20000 };
     lamp_case lamps[LAMPS];
     make_lamps(lamps);
     for (int l = 0; l < LAMPS; l++) {
