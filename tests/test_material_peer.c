@@ -4,6 +4,7 @@
 #include "test.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /// How far a value may lie off, of itself: Mitsuba works in float. Beckmann's masking is a
@@ -54,14 +55,15 @@ static void check_smooth(const pm_scene *scene, const double *row)
     }
 }
 
-/// The numbers of a line; their count.
+/// The numbers of a line, at most 9; their count.
 static int numbers_of(const char *text, double *row)
 {
     int count = 0;
-    int used = 0;
-    while (count < 9 && sscanf(text, "%lf%n", &row[count], &used) == 1) {
-        text += used;
-        count++;
+    for (char *end; count < 9; count++, text = end) {
+        row[count] = strtod(text, &end);
+        if (end == text) {
+            break;
+        }
     }
     return count;
 }

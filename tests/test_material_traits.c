@@ -95,24 +95,29 @@ static void extremes(void)
     }
 }
 
+static void check_narrow(pm_scenes *s, int which, bool narrow)
+{
+    s->shapes[0].material[0] = which;
+    pm_lobes lobes = pm_scenes_lobes(s, pm_scenes_slant(0.5));
+    CHECK(pm_scenes_lobe(&lobes, PM_LOBE_GLOSSY)->specular == narrow);
+    pm_material_traits traits = pm_material_traits_of(&s->materials[which]);
+    CHECK(traits.specular == narrow && !traits.delta && !traits.transmits);
+    CHECK(traits.diffuse == lobes.diffuse);
+    CHECK(!pm_material_is_lambertian(&lobes) || !lobes.diffuse);
+    // Only D lobes are evaluated.
+    bool shines = !pm_spectrum_is_black(
+        pm_material_evaluate(&lobes, pm_vec_reflect(lobes.wi, lobes.normal)));
+    CHECK(shines == traits.reflecting && shines == traits.diffuse);
+}
+
 static void narrow_is_specular(void)
 {
     static const double alphas[2] = {0.1, 0.1000001};
-    for (int rough = 0; rough < 2; rough++) {
+    for (int i = 0; i < 2; i++) {
         pm_scenes s;
-        begin(&s, alphas[rough]);
-        for (int i = 2; i < s.scene.material_count - 1; i++) {
-            s.shapes[0].material[0] = i;
-            pm_lobes lobes = pm_scenes_lobes(&s, pm_scenes_slant(0.5));
-            CHECK(pm_scenes_lobe(&lobes, PM_LOBE_GLOSSY)->specular == !rough);
-            pm_material_traits traits = pm_material_traits_of(&s.materials[i]);
-            CHECK(traits.specular == !rough && !traits.delta && !traits.transmits);
-            CHECK(traits.diffuse == lobes.diffuse);
-            CHECK(!pm_material_is_lambertian(&lobes) || !lobes.diffuse);
-            // Only D lobes are evaluated.
-            bool shines = !pm_spectrum_is_black(
-                pm_material_evaluate(&lobes, pm_vec_reflect(lobes.wi, lobes.normal)));
-            CHECK(shines == traits.reflecting && shines == traits.diffuse);
+        begin(&s, alphas[i]);
+        for (int which = 2; which < s.scene.material_count - 1; which++) {
+            check_narrow(&s, which, i == 0);
         }
         pm_scenes_free(&s);
     }
