@@ -90,7 +90,7 @@ static pm_status aim(const pm_scene *scene, const pm_render_settings *settings,
     return PM_OK;
 }
 
-/// As many shadow photons as the global map would get.
+/// As many shadow photons as the global map gets, or would get.
 static uint64_t count_shadows(const pm_render_settings *settings, const pm_render_maps *maps)
 {
     bool asked = settings->direct_photons && !settings->view_photons &&
@@ -98,8 +98,14 @@ static uint64_t count_shadows(const pm_render_settings *settings, const pm_rende
     if (!asked) {
         return 0;
     }
-    uint64_t global = maps->photons[PM_MAP_GLOBAL];
-    return global > 0 ? global : pm_render_defaults().photons[PM_MAP_GLOBAL];
+    const uint64_t counts[] = {maps->photons[PM_MAP_GLOBAL], settings->total,
+                               settings->photons[PM_MAP_GLOBAL]};
+    for (int i = 0; i < 3; i++) {
+        if (counts[i] > 0) {
+            return counts[i];
+        }
+    }
+    return pm_render_defaults().photons[PM_MAP_GLOBAL];
 }
 
 bool pm_render_precomputes(const pm_render_settings *settings, const pm_render_maps *maps)

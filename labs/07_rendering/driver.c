@@ -18,9 +18,10 @@ static const pm_options_program program = {
     .positional = "SCENE",
     .positional_least = 1,
     .positional_most = 1,
-    .options = "o png exposure size spp photons global-photons caustic-photons gather k r shape"
-               " flatness filter kernel-constants direct caustics precompute projection preset"
-               " packing roulette max-bounces view only map explain check report",
+    .options =
+        "o png exposure size spp photons n global-photons caustic-photons gather k r shape"
+        " flatness filter kernel-constants direct caustics precompute projection preset"
+        " packing roulette max-bounces view only map explain check report",
     .notes =
         "-o or --png must be given. -o writes an EXR file with the layers direct, specular,\n"
         "caustic, indirect, volume and emission, which add up to R G B, and depth, normal,\n"
