@@ -31,7 +31,7 @@ typedef struct {
     pm_emission emission;
     double per_film; // 1 over paths times the area of a pixel at distance 1
     pm_spectrum *film;
-    uint64_t *cut;
+    uint64_t cut;
     pm_progress progress;
     pm_status status;
     char message[1024];
@@ -212,7 +212,7 @@ static void settle(pm_light_run *run, pm_status status, const pm_splatter *splat
         pm_spectrum *pixel = &run->film[splatter->splat[i].place];
         *pixel = pm_spectrum_add(*pixel, splatter->splat[i].radiance);
     }
-    *run->cut += splatter->cut;
+    run->cut += splatter->cut;
     pm_progress_add(&run->progress, count);
 }
 
@@ -288,7 +288,7 @@ static pm_status run_lights(pm_light_run *run, const pm_scene *scene, uint64_t *
 
 pm_status pm_light_tracer_run(const pm_light_tracing *tracing, pm_spectrum *film, uint64_t *cut)
 {
-    pm_light_run run = {.tracing = tracing, .film = film, .cut = cut};
+    pm_light_run run = {.tracing = tracing, .film = film};
     pm_scene scene = *tracing->world->scene;
     size_t room = (size_t)scene.light_count + 1;
     pm_light *lights = calloc(room, sizeof *lights);
@@ -300,6 +300,7 @@ pm_status pm_light_tracer_run(const pm_light_tracing *tracing, pm_spectrum *film
         scene.light_count = choose_lights(tracing, lights);
         scene.lights = lights;
         status = run_lights(&run, &scene, share);
+        *cut += run.cut;
     }
     free(lights);
     free(share);

@@ -12,7 +12,7 @@ static void room_agrees_with_chance(void)
     pm_references_room(&s, true);
     pm_scenes_ready(&s);
     pm_pictures_look(&s, pm_vec(0.0, -0.95, 0.1), pm_vec(0.0, 1.0, 0.0), 0.9, 20);
-    pm_pictures_means want = pm_tiny_trace(&s.world, 300000);
+    pm_pictures_means want = pm_tiny_trace(&s.world, 200000);
     pm_pictures_means got = pm_references_trace(&s, 200);
     for (int layer = 0; layer < PM_LAYER_COUNT; layer++) {
         pm_references_agree((pm_layer)layer, &got, &want);
@@ -255,8 +255,8 @@ static void check_rough(pm_microfacet_kind kind, double alpha, double width)
     pm_scenes_wear(&s, wall, pm_scenes_diffuse(&s, pm_gray(0.5)));
     pm_scenes_ready(&s);
     pm_pictures_look(&s, pm_vec(0.0, -1.0, 1.0), pm_vec(0.0, 0.0, 0.0), 0.5, 16);
-    pm_pictures_means want = pm_tiny_trace(&s.world, 150000);
-    pm_pictures_means got = pm_references_trace(&s, 128);
+    pm_pictures_means want = pm_tiny_trace(&s.world, 60000);
+    pm_pictures_means got = pm_references_trace(&s, 64);
     pm_layer seen = alpha <= 0.1 ? PM_LAYER_SPECULAR : PM_LAYER_DIRECT;
     CHECK(want.mean[seen].c[0] > 0.0 && want.mean[PM_LAYER_EMISSION].c[0] == 0.0);
     for (int layer = 0; layer < PM_LAYER_COUNT; layer++) {
