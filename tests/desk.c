@@ -5,9 +5,18 @@
 
 static pm_status say_emitted(void *context, const pm_vertex *at, pm_spectrum *radiance)
 {
-    const pm_desk *desk = context;
+    pm_desk *desk = context;
     bool lamp = desk->s.shapes[at->hit.shape].light != PM_NONE;
+    desk->lamp = *at;
     *radiance = pm_gray(lamp ? PM_DESK_EMITTED : 0.0);
+    return PM_OK;
+}
+
+static pm_status say_sky(void *context, const pm_ray *ray, pm_spectrum *radiance)
+{
+    const pm_desk *desk = context;
+    (void)ray;
+    *radiance = pm_gray(desk->sky);
     return PM_OK;
 }
 
@@ -38,6 +47,12 @@ static pm_status say_indirect(void *context, const pm_vertex *at, pm_spectrum *r
     return say(desk, &desk->indirect, PM_DESK_INDIRECT, at, radiance);
 }
 
+static pm_status say_glint(void *context, const pm_vertex *at, pm_spectrum *radiance)
+{
+    pm_desk *desk = context;
+    return say(desk, &desk->glint, PM_DESK_GLINT, at, radiance);
+}
+
 static pm_status say_global(void *context, const pm_vertex *at, pm_rng *rng,
                             pm_spectrum *radiance)
 {
@@ -56,6 +71,8 @@ void pm_desk_ready(pm_desk *desk)
         .splits = 2,
         .ask = {.context = desk,
                 .emitted = say_emitted,
+                .sky = say_sky,
+                .glint = say_glint,
                 .direct = say_direct,
                 .caustic = say_caustic,
                 .indirect = say_indirect,

@@ -13,15 +13,18 @@ enum {
     PM_DESK_INDIRECT = 1000,
     PM_DESK_GLOBAL = 10000,
     PM_DESK_ALL = 1111, // a diffuse lamp, seen by the eye
+    PM_DESK_GLINT = 100000,
 };
 
 /// Zero-initialise; then pm_scenes_begin(&desk.s) and the scene.
 typedef struct {
     pm_scenes s;
     pm_compose compose;
-    int direct, caustic, indirect, global; // calls
-    pm_vertex last;                        // that was asked about
-    uint64_t cut;                          // gather rays
+    double sky;                                   // what it answers
+    int direct, caustic, indirect, global, glint; // calls
+    pm_vertex last;                               // that was asked about
+    pm_vertex lamp;                               // the last that was asked what it emits
+    uint64_t cut;                                 // gather rays
 } pm_desk;
 
 /// To be called when materials, shapes and lights are there: all layers wanted, two splits.

@@ -31,16 +31,29 @@ static pm_layer sort_path(const char *met)
     return strchr(met + 1, 'D') == NULL ? PM_LAYER_CAUSTIC : PM_LAYER_INDIRECT;
 }
 
+static void see(pm_spectrum radiance, const tiny_path *path, pm_spectrum layer[PM_LAYER_COUNT])
+{
+    pm_layer into = sort_path(path->met);
+    layer[into] = pm_spectrum_add(layer[into], pm_spectrum_mul(path->weight, radiance));
+}
+
 static void see_lamp(const pm_scene *scene, const pm_hit *hit, const tiny_path *path,
                      pm_spectrum layer[PM_LAYER_COUNT])
 {
     int light = scene->shapes[hit->shape].light;
-    if (light == PM_NONE || pm_vec_dot(path->ray.direction, hit->normal) >= 0.0) {
-        return;
+    if (light != PM_NONE && pm_vec_dot(path->ray.direction, hit->normal) < 0.0) {
+        see(scene->lights[light].emitted, path, layer);
     }
-    pm_spectrum seen = pm_spectrum_mul(path->weight, scene->lights[light].emitted);
-    pm_layer into = sort_path(path->met);
-    layer[into] = pm_spectrum_add(layer[into], seen);
+}
+
+static void see_sky(const pm_scene *scene, const tiny_path *path,
+                    pm_spectrum layer[PM_LAYER_COUNT])
+{
+    for (int i = 0; i < scene->light_count; i++) {
+        if (scene->lights[i].type == PM_LIGHT_CONSTANT) {
+            see(scene->lights[i].emitted, path, layer);
+        }
+    }
 }
 
 static char letter_of(const pm_lobes *lobes, int which)
@@ -70,7 +83,7 @@ static bool turn(const pm_hit *hit, const pm_lobes *lobes, pm_rng *rng, tiny_pat
         path->met[path->events++] = letter_of(lobes, i);
         path->ray = pm_hit_ray(hit, scatter.wo, 0.0, scatter.medium);
         CHECK(path->events < LETTERS);
-        return true;
+        return !pm_spectrum_is_black(path->weight);
     }
     return false;
 }
@@ -78,8 +91,12 @@ static bool turn(const pm_hit *hit, const pm_lobes *lobes, pm_rng *rng, tiny_pat
 static void follow(const pm_intersector *world, tiny_path *path, pm_rng *rng,
                    pm_spectrum layer[PM_LAYER_COUNT])
 {
-    pm_hit hit;
-    for (bool goes_on = true; goes_on && pm_closest(world, &path->ray, &hit);) {
+    for (bool goes_on = true; goes_on;) {
+        pm_hit hit;
+        if (!pm_closest(world, &path->ray, &hit)) {
+            see_sky(world->scene, path, layer);
+            return;
+        }
         pm_lobes lobes;
         pm_material_lobes(world->scene, &hit, pm_vec_negate(path->ray.direction), 0.0, &lobes);
         CHECK(!lobes.passes);
@@ -112,7 +129,8 @@ static void add(pm_pictures_means *all, const pm_pictures_means *block)
 pm_pictures_means pm_tiny_trace(const pm_intersector *world, uint32_t paths)
 {
     for (int i = 0; i < world->scene->light_count; i++) {
-        CHECK(world->scene->lights[i].type == PM_LIGHT_AREA);
+        pm_light_type type = world->scene->lights[i].type;
+        CHECK(type == PM_LIGHT_AREA || type == PM_LIGHT_CONSTANT);
     }
     int blocks = (int)((paths + BLOCK - 1) / BLOCK);
     pm_pictures_means all = {0};

@@ -8,7 +8,7 @@
 
 /// Radiance by layer, meant over the whole film of the scene's camera.
 ///
-/// @param paths  rounded up to whole thousands; every light must be an area light
+/// @param paths  rounded up to whole thousands; every light must be an area or a constant one
 pm_pictures_means pm_tiny_trace(const pm_intersector *world, uint32_t paths);
 
 #endif
