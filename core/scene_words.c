@@ -67,7 +67,6 @@ static const pm_word_element elements[] = {
             NULL, 0, false                                                                     \
         }                                                                                      \
     }
-#define LATER {{NULL, 0, false}}, true
 
 static const pm_word_plugin plugins[] = {
     {"sensor",

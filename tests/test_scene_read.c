@@ -194,6 +194,27 @@ static void rough_metals(void)
     pm_scene_free(&s);
 }
 
+static uint64_t hash_of(const char *bsdf)
+{
+    pm_scene s = {0};
+    CHECK_OK(pm_scene_text_read(&s, "<shape type='sphere'>%s</shape>", bsdf));
+    uint64_t hash = s.hash;
+    pm_scene_free(&s);
+    return hash;
+}
+
+static void roughness_is_hashed(void)
+{
+    uint64_t plain = hash_of("<bsdf type='roughconductor'/>");
+    CHECK(hash_of("<bsdf type='roughconductor'><float name='alpha' value='0.1'/></bsdf>") ==
+          plain);
+    CHECK(hash_of("<bsdf type='roughconductor'><float name='alpha' value='0.11'/></bsdf>") !=
+          plain);
+    CHECK(hash_of("<bsdf type='roughconductor'><string name='distribution' value='ggx'/>"
+                  "</bsdf>") != plain);
+    CHECK(hash_of("<bsdf type='conductor'/>") != plain);
+}
+
 static void check_sides(const pm_scene *s, int shape, int front, int back)
 {
     CHECK_THAT(s->shapes[shape].material[0] == front && s->shapes[shape].material[1] == back,
@@ -362,4 +383,6 @@ PM_TESTS(
      spots_and_skies},
     {"scene_read.12", "panes and plastics have their values and Mitsuba's defaults",
      coated_materials},
-    {"scene_read.13", "rough metals have their values and Mitsuba's defaults", rough_metals})
+    {"scene_read.13", "rough metals have their values and Mitsuba's defaults", rough_metals},
+    {"scene_read.14", "roughness and distribution belong to a scene's hash",
+     roughness_is_hashed})
