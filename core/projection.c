@@ -125,11 +125,24 @@ static void send_nothing(pm_projections *out)
     }
 }
 
+static bool aims_any(const pm_scene *scene, pm_map_kind kind)
+{
+    for (int i = 0; i < scene->light_count; i++) {
+        if (is_aimed(&scene->lights[i], kind)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 static pm_status aim_all(const pm_scene *scene, pm_map_kind kind, const targets *aim,
                          pm_projections *out)
 {
     if (aim->count == 0) {
         send_nothing(out);
+        return PM_OK;
+    }
+    if (!aims_any(scene, kind)) {
         return PM_OK;
     }
     out->storage = malloc((size_t)scene->light_count * PM_CELLS * sizeof *out->storage);
@@ -176,7 +189,12 @@ static void sum_up(const pm_scene *scene, pm_projections *out)
 static void settle(const targets *aim, pm_projections *out)
 {
     double saved = 1.0 - out->sent;
-    if (saved < PAYS_FROM) {
+    if (out->cells == 0) {
+        pm_projection_free(out);
+        out->sent = 1.0;
+        snprintf(out->why, sizeof out->why,
+                 "no light gains by aiming: photons are sent everywhere");
+    } else if (saved < PAYS_FROM) {
         pm_projection_free(out);
         out->sent = 1.0;
         snprintf(out->why, sizeof out->why,
