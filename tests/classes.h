@@ -25,7 +25,7 @@ void pm_classes_lamp(pm_scenes *s, pm_shape shape);
 /// Adds a square floor about the origin that faces up, black from below.
 void pm_classes_floor(pm_scenes *s, double width, double albedo);
 
-/// A rectangle at height z that faces down: x from -2 to 2, y from `low` to `high`.
+/// A rectangle at height z that faces down: x from -0.6 to 0.6, y from `low` to `high`.
 pm_shape pm_classes_lid(double low, double high, double z);
 
 /// Makes the scene ready; the eye sees a square of this half width about the origin, from

@@ -65,6 +65,21 @@ pm_pictures_means pm_references_trace(const pm_scenes *s, uint32_t spp)
     return means;
 }
 
+pm_pictures_means pm_references_repeat(const pm_scenes *s, pm_reference_settings settings,
+                                       uint32_t runs)
+{
+    pm_pictures_means means = {0};
+    omp_set_num_threads(1); // the runner keeps the other cores busy
+    for (settings.seed = 1; settings.seed <= runs; settings.seed++) {
+        pm_image image = pm_references_take(s, &settings, NULL);
+        pm_pictures_means one = pm_references_means(&image);
+        pm_pictures_add(&means, one.mean);
+        pm_image_free(&image);
+    }
+    pm_pictures_finish(&means, (double)runs);
+    return means;
+}
+
 void pm_references_agree(pm_layer layer, const pm_pictures_means *got,
                          const pm_pictures_means *want)
 {

@@ -20,6 +20,11 @@ pm_pictures_means pm_references_means(const pm_image *image);
 /// The same of a picture that is taken and given back.
 pm_pictures_means pm_references_trace(const pm_scenes *s, uint32_t spp);
 
+/// Means over pictures with the seeds 1 .. `runs`, whose scatter tells the variance: for
+/// pictures with light paths, whose pixels are not independent of each other.
+pm_pictures_means pm_references_repeat(const pm_scenes *s, pm_reference_settings settings,
+                                       uint32_t runs);
+
 /// Ends the test unless the channels of a layer agree within 5 sigma of both variances.
 void pm_references_agree(pm_layer layer, const pm_pictures_means *got,
                          const pm_pictures_means *want);
