@@ -35,6 +35,8 @@ static const struct {
     {"render {S} --size 8x8 --photons 2000 --gather 1 --spp 1 --json -o {O}",
      "plan.direct.needed plan.direct.why plan.specular plan.caustic plan.indirect plan.volume "
      "plan.dispersion plan.projection maps settings flux seconds peak_bytes"},
+    {"reference {S} --size 8x8 --spp 2 --json -o {O}",
+     "spp seconds rel_error blind cut settings.seed settings.spp settings.light_paths"},
 };
 
 static const json_t *find_key(const json_t *from, const char *dotted)
@@ -135,6 +137,7 @@ static char *run_with(const char *line, int threads, size_t *length)
 static const char *const same_lines[] = {
     "render {S} --size 48x48 --photons 20000 --gather 4 --spp 2 -o {O}",
     "render {S} --size 48x48 --photons 20000 --gather 4 --spp 2 --png {O}",
+    "reference {S} --size 48x48 --spp 4 -o {O}",
     "storage {S} -n 20000 -o {O}",
     "storage {S} -n 20000 --packing off -o {O}",
     "storage {S} -n 20000 --dump {O}",
@@ -177,8 +180,9 @@ static void differ_by_seed(void)
 
 static void explain_themselves(void)
 {
-    static const char *const names[] = {"emission", "tracing",   "storage", "balancing",
-                                        "radiance", "filtering", "render",  "compare"};
+    static const char *const names[] = {"emission",  "tracing",   "storage",
+                                        "balancing", "radiance",  "filtering",
+                                        "render",    "reference", "compare"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i) {
         char line[64];
         snprintf(line, sizeof line, "%s --help", names[i]);

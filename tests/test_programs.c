@@ -22,6 +22,7 @@ static const char *const scene_lines[] = {
     "balancing {S} -n 2000 --json --report {O}",
     "radiance {S} -n 2000 --at 0,0,0 --normal 0,1,0 --json --report {O}",
     "render {S} --size 12x12 --photons 2000 --gather 2 --spp 1 -o {O}",
+    "reference {S} --size 12x12 --spp 2 -o {O}",
 };
 enum { SCENE_LINES = sizeof scene_lines / sizeof scene_lines[0] };
 
@@ -189,6 +190,9 @@ static const refusal words[] = {
     {"tracing {S} {S}", "SCENE"},
     {"tracing {S} -D size", "-D"},
     {"tracing {S} -D nosuch=1", "nosuch"},
+    {"reference {S} -o {O}", "--spp"},
+    {"reference {S} --spp 2", "-o"},
+    {"reference {S} -o {O} --spp 3", "must be even"},
     {"compare {S}", "B.exr"},
 };
 
