@@ -38,10 +38,6 @@ json_t *pm_report_by_shape(const pm_scene *scene, const pm_audit *audit);
 /// {emitted, stored, power[3], refused, clamped, vanished, bytes} of one map.
 json_t *pm_report_map(const pm_photon_map *map);
 
-/// {cells, active, dark[3] in W, saved, why}: how a map's photons were aimed, and how many that
-/// saved of those `emitted`.
-json_t *pm_report_projection(const pm_projections *projections, uint64_t emitted);
-
 /// Lines about what the scene file says that is not used.
 json_t *pm_report_notes(const pm_scene *scene);
 
