@@ -97,15 +97,32 @@ static void light_cells(const cut_targets *cut, const pm_light *light, int shape
     }
 }
 
-static void list_lit(const pm_cells *cells, uint32_t *lit, pm_projection *out)
+/// Appends the lit cells to the storage, which moves: only where all lists stand is
+/// point_at_lists() to be called.
+static pm_status list_lit(const pm_cells *cells, uint32_t **storage, size_t *used,
+                          pm_projection *out)
 {
-    uint32_t count = 0;
+    uint32_t *moved = realloc(*storage, (*used + cells->lit_count + 1) * sizeof *moved);
+    if (moved == NULL) {
+        return PM_FAIL(PM_ENOMEM, "no memory for %u lit cells", cells->lit_count);
+    }
+    *storage = moved;
     for (uint32_t i = 0; i < PM_CELLS; i++) {
         if (cells->lit[i]) {
-            lit[count++] = i;
+            moved[(*used)++] = i;
         }
     }
-    *out = (pm_projection){PM_CELLS_ROWS, PM_CELLS_COLUMNS, lit, count};
+    *out = (pm_projection){PM_CELLS_ROWS, PM_CELLS_COLUMNS, NULL, cells->lit_count};
+    return PM_OK;
+}
+
+static void point_at_lists(pm_projections *out)
+{
+    size_t used = 0;
+    for (int i = 0; i < out->light_count && out->storage != NULL; i++) {
+        out->light[i].lit = &out->storage[used];
+        used += out->light[i].lit_count;
+    }
 }
 
 /// Whether the map of `kind` aims `light` at all.
@@ -145,13 +162,11 @@ static pm_status aim_all(const pm_scene *scene, pm_map_kind kind, const targets 
     if (!aims_any(scene, kind)) {
         return PM_OK;
     }
-    out->storage = malloc((size_t)scene->light_count * PM_CELLS * sizeof *out->storage);
-    if (out->storage == NULL) {
-        return PM_FAIL(PM_ENOMEM, "no memory for the cells of %d lights", scene->light_count);
-    }
     cut_targets cut;
     PM_TRY(cut_up(aim, &cut));
-    for (int i = 0; i < scene->light_count; i++) {
+    pm_status status = PM_OK;
+    size_t used = 0;
+    for (int i = 0; i < scene->light_count && status == PM_OK; i++) {
         const pm_light *light = &scene->lights[i];
         pm_cells cells;
         if (!is_aimed(light, kind) || !pm_cells_begin(scene, light, &cells)) {
@@ -159,11 +174,12 @@ static pm_status aim_all(const pm_scene *scene, pm_map_kind kind, const targets 
         }
         light_cells(&cut, light, scene->shape_count, &cells);
         if (cells.lit_count < PM_CELLS) {
-            list_lit(&cells, &out->storage[(size_t)i * PM_CELLS], &out->light[i]);
+            status = list_lit(&cells, &out->storage, &used, &out->light[i]);
         }
     }
     free_cut(&cut);
-    return PM_OK;
+    point_at_lists(out);
+    return status;
 }
 
 static void sum_up(const pm_scene *scene, pm_projections *out)
