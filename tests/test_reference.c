@@ -273,6 +273,31 @@ static void rough_metal_shows_lamps_once(void)
     check_rough(PM_MICROFACET_BECKMANN, 0.1, 0.3);
 }
 
+/// A box of rough plastic with a smooth plastic ball, a pane and rough metal of coloured index.
+static void glossy_room_agrees_with_chance(void)
+{
+    pm_scenes s;
+    pm_scenes_begin(&s);
+    int walls = pm_scenes_rough_plastic(&s, pm_rgb(0.6, 0.4, 0.2), 1.5, PM_MICROFACET_GGX, 0.2);
+    pm_scenes_room(&s, 1.0, walls);
+    int lamp = pm_scenes_wear(&s, pm_scenes_square(1.0, 0.95, true), walls);
+    pm_scenes_lamp(&s, lamp, pm_rgb(2.0, 1.5, 1.0));
+    pm_scenes_wear(&s, pm_shapes_sphere(pm_vec(-0.5, 0.3, -0.6), 0.4),
+                   pm_scenes_plastic(&s, pm_rgb(0.2, 0.3, 0.7), 1.5));
+    int copper = pm_scenes_rough_metal(&s, pm_rgb(0.2, 0.9, 1.1), pm_rgb(3.9, 2.5, 2.2), 0.1);
+    pm_scenes_wear(&s, pm_shapes_sphere(pm_vec(0.5, 0.3, -0.5), 0.4), copper);
+    pm_scenes_wear(&s, pm_scenes_square(0.8, 0.1, false), pm_scenes_pane(&s, 1.5));
+    pm_scenes_ready(&s);
+    pm_pictures_look(&s, pm_vec(0.0, -0.95, 0.1), pm_vec(0.0, 1.0, 0.0), 0.9, 16);
+    pm_pictures_means want = pm_tiny_trace(&s.world, 150000);
+    pm_pictures_means got = pm_references_trace(&s, 128);
+    for (int layer = 0; layer < PM_LAYER_COUNT; layer++) {
+        pm_references_agree((pm_layer)layer, &got, &want);
+        CHECK(layer == PM_LAYER_VOLUME || want.mean[layer].c[0] > 0.0);
+    }
+    pm_scenes_free(&s);
+}
+
 PM_TESTS({"reference.1", "each layer of a room is what paths find that draw no lights",
           room_agrees_with_chance},
          {"reference.2", "a closed furnace shines by Le / (1 - rho)", furnace_is_exact},
@@ -290,4 +315,8 @@ PM_TESTS({"reference.1", "each layer of a room is what paths find that draw no l
          {"reference.9", "radiance is n^2 times as high in glass, and as before behind it",
           radiance_grows_in_glass},
          {"reference.10", "rough metal shows lamps as brute force does, whatever their size",
-          rough_metal_shows_lamps_once})
+          rough_metal_shows_lamps_once},
+         {"reference.11",
+          "each layer of a room of plastic, metal and a pane is what paths find"
+          " that draw no lights",
+          glossy_room_agrees_with_chance})
