@@ -135,6 +135,10 @@ static void each_map_is_asked_for_its_own_light(void)
     CHECK_OK(at.compose.ask.caustic(&at.gather, &floor, &radiance));
     check_radiance("all of the caustic map", radiance, pm_gray(1.0));
     CHECK_NEAR((double)at.gather.lookups, 2.0, 0.0); // in the global map
+    at.gather.settings.caustics_global = true;
+    pm_gather_sources(&at.gather, &at.compose);
+    CHECK_OK(at.compose.ask.caustic(&at.gather, &floor, &radiance));
+    check_radiance("what the global map marks", radiance, pm_rgb(0.0, 1.0, 0.0));
     site_free(&at);
 }
 
@@ -151,6 +155,17 @@ static void maps_that_are_not_there_are_not_asked(void)
     pm_gather_sources(&at.gather, &at.compose);
     CHECK(at.compose.ask.caustic != NULL && at.compose.ask.direct != NULL);
     CHECK(at.compose.ask.indirect == NULL && at.compose.ask.global == NULL);
+    at.gather.settings.caustics_global = true; // asks the global map or nothing
+    pm_gather_sources(&at.gather, &at.compose);
+    CHECK(at.compose.ask.caustic == NULL);
+    at.gather.map[PM_MAP_GLOBAL] = &at.map[PM_MAP_GLOBAL];
+    pm_gather_sources(&at.gather, &at.compose);
+    CHECK(at.compose.ask.caustic != NULL);
+    for (uint32_t i = 0; i < at.map[PM_MAP_GLOBAL].count; i++) {
+        at.map[PM_MAP_GLOBAL].photons[i].flags &= (uint16_t)~PM_PHOTON_CAUSTIC;
+    }
+    pm_gather_sources(&at.gather, &at.compose);
+    CHECK(at.compose.ask.caustic == NULL); // the whole tree would be searched for none
     site_free(&at);
 }
 
