@@ -73,7 +73,7 @@ static regions look_at(const pm_photon_map *map)
 
 static regions trace(const pm_scenes *s, pm_map_kind kind, const pm_projections *aim)
 {
-    pm_pass_settings settings = {.seed = 11, .count = 100000, .unpacked = true};
+    pm_pass_settings settings = {.seed = 11, .count = 50000, .unpacked = true};
     settings.projections = aim == NULL ? NULL : pm_projection_of(aim);
     pm_photon_map map;
     pm_pass_report report;
@@ -142,9 +142,9 @@ static void meshes_and_cylinders_agree_on_and_off(void)
 {
     pm_scenes s;
     int glass = ball_over_floor(&s);
-    s.shapes[1] = pm_shapes_torus(pm_vec(0.3, 0.1, 0.25), 0.2, 0.05, 8, 6);
+    s.shapes[1] = pm_shapes_torus(pm_vec(0.3, 0.1, 0.25), 0.3, 0.12, 8, 6);
     s.shapes[1].material[0] = s.shapes[1].material[1] = glass;
-    pm_shape pipe = pm_shapes_cylinder(pm_vec(-0.5, 0.0, 0.1), pm_vec(0.0, 1.0, 0.0), 0.3, 0.1);
+    pm_shape pipe = pm_shapes_cylinder(pm_vec(-0.5, 0.0, 0.1), pm_vec(0.0, 1.0, 0.0), 0.6, 0.1);
     pm_scenes_wear(&s, pipe, pm_scenes_mirror(&s, pm_gray(0.9)));
     light_it(&s, 0);
     compare(&s, PM_MAP_CAUSTIC);
