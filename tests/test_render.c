@@ -109,6 +109,47 @@ static void threads_do_not_matter(void)
     pm_scenes_free(&s);
 }
 
+// Everything that draws numbers or counts on the way: rough lobes, a sky, near hits, shadow
+// photons, irradiance at photons, caustics from the global map.
+static void threads_do_not_matter_to_any_part(void)
+{
+    const int threads[] = {1, 2, 7};
+    pm_scenes s;
+    room_begin(&s, 1.0, 1.0);
+    int metal = pm_scenes_rough_mirror(&s, PM_MICROFACET_GGX, 0.05);
+    s.shapes[1].material[0] = metal;
+    int plastic = pm_scenes_rough_plastic(&s, pm_gray(0.5), 1.5, PM_MICROFACET_BECKMANN, 0.2);
+    s.shapes[4].material[0] = plastic;
+    pm_scenes_sky(&s, pm_gray(1.0));
+    pm_scenes_ready(&s);
+    pm_render_settings settings = gathering();
+    settings.direct_photons = settings.precompute = settings.light.caustics_global = true;
+    pm_image want = {0};
+    pm_eye_report first = {0};
+    for (int i = 0; i < 3; i++) {
+        omp_set_num_threads(threads[i]);
+        pm_render_maps maps = {0};
+        pm_image image;
+        pm_eye_report report;
+        CHECK_OK(pm_render_make_maps(&s.world, &settings, &maps));
+        CHECK_OK(pm_render_image(&s.world, &settings, &maps, &image, &report));
+        CHECK(report.near > 0 && report.shadow_rays > 0 && report.shadow_spared > 0);
+        pm_render_maps_free(&maps);
+        if (i == 0) {
+            want = image;
+            first = report;
+            continue;
+        }
+        CHECK_PICTURE(&image, &want, 1.0, NULL);
+        CHECK(report.near == first.near && report.lookups == first.lookups);
+        CHECK(report.shadow_rays == first.shadow_rays);
+        CHECK(report.shadow_spared == first.shadow_spared);
+        pm_image_free(&image);
+    }
+    pm_image_free(&want);
+    pm_scenes_free(&s);
+}
+
 /// Checks that a channel is `factor` times what it is in `whole`, bit for bit.
 static void check_plane(const pm_image *image, const pm_image *whole, const char *name,
                         float factor)
@@ -331,22 +372,25 @@ static void sigint_stops_and_leaves_nothing(void)
     pm_scenes_free(&s);
 }
 
-PM_TESTS({"render.1", "the layers add up to R G B, bit for bit", layers_add_up},
-         {"render.2", "1, 2 and 7 threads make the same photons and the same picture",
-          threads_do_not_matter},
-         {"render.3", "one layer alone is that layer of the whole picture, bit for bit",
-          one_layer_alone_is_that_of_the_picture},
-         {"render.4", "a final gather and the map seen directly agree on indirect light",
-          gathering_agrees_with_seeing_the_map},
-         {"render.5", "depth, normal, mask and gather channels are right; red stays left",
-          channels_say_what_is_seen},
-         {"render.6", "where nothing is in sight every channel is 0",
-          nothing_in_sight_is_black},
-         {"render.7", "powers of two in lengths and powers change no other bit of a picture",
-          scale_does_not_matter},
-         {"render.8", "a photon lights the pixel that it is seen in, in the layer of its path",
-          a_photon_lights_the_pixel_it_is_seen_in},
-         {"render.9", "after SIGINT maps and pictures stop and hand nothing out",
-          sigint_stops_and_leaves_nothing},
-         {"render.10", "a black picture and one too bright for floats are reported",
-          pictures_without_or_beyond_light_say_so})
+PM_TESTS(
+    {"render.1", "the layers add up to R G B, bit for bit", layers_add_up},
+    {"render.2", "1, 2 and 7 threads make the same photons and the same picture",
+     threads_do_not_matter},
+    {"render.3", "one layer alone is that layer of the whole picture, bit for bit",
+     one_layer_alone_is_that_of_the_picture},
+    {"render.4", "a final gather and the map seen directly agree on indirect light",
+     gathering_agrees_with_seeing_the_map},
+    {"render.5", "depth, normal, mask and gather channels are right; red stays left",
+     channels_say_what_is_seen},
+    {"render.6", "where nothing is in sight every channel is 0", nothing_in_sight_is_black},
+    {"render.7", "powers of two in lengths and powers change no other bit of a picture",
+     scale_does_not_matter},
+    {"render.8", "a photon lights the pixel that it is seen in, in the layer of its path",
+     a_photon_lights_the_pixel_it_is_seen_in},
+    {"render.9", "after SIGINT maps and pictures stop and hand nothing out",
+     sigint_stops_and_leaves_nothing},
+    {"render.10", "a black picture and one too bright for floats are reported",
+     pictures_without_or_beyond_light_say_so},
+    {"render.11",
+     "nor do threads matter to rough lobes, skies, shadow photons and irradiance at photons",
+     threads_do_not_matter_to_any_part})

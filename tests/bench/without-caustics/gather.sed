@@ -3,7 +3,8 @@
 /^static pm_status ask_caustic_marked(/,/^}/d
 /^ *\.caustic = /,/: NULL,/d
 /bool has_caustic = /d
-/bool marked = /d
-/^    pm_spectrum caustic;/d
-/pm_lookup_marked(gather, at, found.radius/d
+/bool own = /d
+/gather->marked = /d
+/^    pm_spectrum caustic = /d
+/if (gather->marked) {/,/^    }/d
 s/pm_spectrum_add(direct, pm_spectrum_add(caustic, indirect))/pm_spectrum_add(direct, indirect)/
