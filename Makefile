@@ -180,6 +180,7 @@ build-tests: all $(BUILD)/tests/run $(ATTACKS) $(MAKE_MESHES)
 
 test: ## build, then run the tests (ONLY=tag for some, SAN=1 with sanitizers)
 	@$(AGAIN) build-tests
+	$(if $(SAN),,-@$(AGAIN) $(BIN)/render-without-caustics)
 	@OMP_WAIT_POLICY=passive LSAN_OPTIONS=suppressions=$(CURDIR)/tests/leaks.supp:print_suppressions=0 \
 	  $(BUILD)/tests/run $(if $(SAN),--limit 300) $(ONLY)
 

@@ -15,7 +15,10 @@ static const pm_option table[] = {
     {"n", "n", PM_OPTION_COUNT, AT(photons), 0, 1, MANY, "N",
      "photons emitted for each map that is traced", "200000"},
     {"photons", "photons", PM_OPTION_COUNT, AT(photons_total), 0, 1, MANY, "N",
-     "photons emitted in all, split by the plan", "none: the numbers of each map"},
+     "photons emitted in all, split 2:2:1 among those of the global, caustic and volume map "
+     "that "
+     "the picture needs",
+     "none: the numbers of each map"},
     {"global-photons", "global-photons", PM_OPTION_COUNT, AT(photons[PM_MAP_GLOBAL]), 0, 0,
      MANY, "N", "photons emitted for the global map; 0: no such map", NULL},
     {"caustic-photons", "caustic-photons", PM_OPTION_COUNT, AT(photons[PM_MAP_CAUSTIC]), 0, 0,
@@ -46,7 +49,8 @@ static const pm_option table[] = {
      "directions of a final gather; 0: the global map is seen directly", NULL},
     {"spp", "spp", PM_OPTION_COUNT32, AT(spp), 0, 1, 1e6, "N", "samples of a pixel", NULL},
     {"direct", "direct", PM_OPTION_SWITCH, AT(direct_photons), 0, 0, 0, "rays|photons",
-     "direct light by shadow rays alone, or by shadow photons and rays where these differ",
+     "direct light by shadow rays alone, or by shadow photons (as many as the global map has, "
+     "sent besides) and rays where these differ",
      NULL},
     {"caustics", "caustics", PM_OPTION_SWITCH, AT(caustics_global), 0, 0, 0, "map|global",
      "caustics from a map of their own, or from the global map", NULL},

@@ -21,6 +21,7 @@ static const pm_options_program render = {
     .positional_most = 1,
     .options = "n photons global-photons caustic-photons k r shape filter kernel-constants "
                "flatness gather spp exposure packing max-bounces at normal size preset "
+               "direct caustics precompute projection "
                "only o map check report max-rel-mse",
     .needs = "o",
 };
@@ -76,6 +77,7 @@ static void defaults_are_those_of_the_design(void)
     CHECK_NEAR(o->estimate.flatness, 0.1, 0.0);
     CHECK(o->gather == 64 && o->spp == 4 && o->seed == 1 && o->threads == 0 && o->runs == 1);
     CHECK(!o->unpacked && !o->view_photons);
+    CHECK(!o->direct_photons && !o->caustics_global && !o->precompute && !o->everywhere);
     CHECK(o->roulette == PM_ROULETTE_MAX && o->max_bounces == 0 && o->only == -1);
     CHECK(!o->json && !o->has_at && !o->has_normal && !o->has_max_rel_mse);
 }
@@ -87,6 +89,7 @@ static void every_kind_of_value_arrives(void)
                    "-n 9007199254740992 -k 7 -r 0.5 --shape sphere --filter=gaussian "
                    "--kernel-constants lecture --packing off s.xml "
                    "--exposure -1.5 --at -1,2e1,.5 --normal 0,0,-4 --size 640x480 "
+                   "--direct photons --caustics global --precompute on --projection off "
                    "--only indirect --seed 4294967295 -oout.exr --json --max-bounces 3",
                    &c));
     const pm_options *o = &c.options;
@@ -95,6 +98,7 @@ static void every_kind_of_value_arrives(void)
     CHECK(o->estimate.shape == PM_GATHER_SPHERE && o->estimate.filter == PM_FILTER_GAUSSIAN);
     CHECK(o->estimate.constants == PM_CONSTANTS_LECTURE && o->estimate.plain_k);
     CHECK(o->unpacked && o->json && o->max_bounces == 3);
+    CHECK(o->direct_photons && o->caustics_global && o->precompute && o->everywhere);
     CHECK(o->exposure == -1.5 && o->seed == 4294967295u && o->only == PM_LAYER_INDIRECT);
     CHECK(o->has_at && o->at.x == -1.0 && o->at.y == 20.0 && o->at.z == 0.5);
     CHECK(o->has_normal && o->normal.z == -1.0 && o->normal.x == 0.0);
@@ -165,6 +169,10 @@ static void numbers_are_refused_unless_whole_and_in_range(void)
         {"--max-rel-mse nan", "got \"nan\""},
         {"--shape cube", "--shape must be disc|sphere, got \"cube\""},
         {"--shape dis", "got \"dis\""},
+        {"--direct both", "--direct must be rays|photons, got \"both\""},
+        {"--caustics both", "--caustics must be map|global, got \"both\""},
+        {"--precompute 1", "--precompute must be off|on, got \"1\""},
+        {"--projection 1", "--projection must be on|off, got \"1\""},
         {"--preset lecture", "--preset must be lecture-10k|lecture-500k|lecture-disc"},
         {"--at 1,2", "--at must be three finite numbers x,y,z, got \"1,2\""},
         {"--at 1,2,3,4", "got \"1,2,3,4\""},

@@ -34,7 +34,17 @@ static const struct {
      "filters.epanechnikov.mean"},
     {"render {S} --size 8x8 --photons 2000 --gather 1 --spp 1 --json -o {O}",
      "plan.direct.needed plan.direct.why plan.specular plan.caustic plan.indirect plan.volume "
-     "plan.dispersion plan.projection maps settings flux seconds peak_bytes"},
+     "plan.dispersion plan.projection.why plan.caustic.paths plan.caustic.missing maps flux "
+     "maps.global.projection.cells maps.caustic.projection.active "
+     "maps.caustic.projection.dark maps.caustic.projection.saved maps.caustic.projection.why "
+     "direct.rays direct.spared gather.near precompute.places precompute.seconds choices "
+     "settings.max_bounces settings.only settings.view settings.caps.specular "
+     "settings.light_samples settings.direct settings.caustics settings.precompute "
+     "settings.projection settings.photons.global seconds.total seconds.shadows "
+     "seconds.irradiance peak_bytes"},
+    {"render {S} --explain --json",
+     "plan.direct.needed plan.direct.why plan.projection.why photons.global photons.caustic "
+     "choices not_offered.what not_offered.why"},
     {"reference {S} --size 8x8 --spp 2 --json -o {O}",
      "spp seconds rel_error blind cut settings.seed settings.spp settings.light_paths"},
 };
@@ -137,6 +147,9 @@ static char *run_with(const char *line, int threads, size_t *length)
 static const char *const same_lines[] = {
     "render {S} --size 48x48 --photons 20000 --gather 4 --spp 2 -o {O}",
     "render {S} --size 48x48 --photons 20000 --gather 4 --spp 2 --png {O}",
+    "render {S} --size 32x32 --photons 5000 --gather 4 --spp 1 --direct photons --precompute "
+    "on "
+    "--caustics global --projection off -o {O}",
     "reference {S} --size 48x48 --spp 4 -o {O}",
     "storage {S} -n 20000 -o {O}",
     "storage {S} -n 20000 --packing off -o {O}",

@@ -177,6 +177,12 @@ static const refusal words[] = {
     {"render {S} -o {O} --roulette mean", "average"},
     {"render {S} -o {O} --packing maybe", "off"},
     {"render {S} -o {O} --only diffuse", "direct"},
+    {"render {S} -o {O} --direct shadows", "--direct must be rays|photons"},
+    {"render {S} -o {O} --caustics none", "--caustics must be map|global"},
+    {"render {S} -o {O} --precompute yes", "--precompute must be off|on"},
+    {"render {S} -o {O} --projection yes", "--projection must be on|off"},
+    {"render {S} -o {O} --photons 1", "--photons must leave a photon for each map"},
+    {"render {S} --explain --photons 1", "--photons must leave a photon for each map"},
     {"render {S} -o {O} --gathr 5", "--gather"},
     {"render {S} -o {O} --photon 5", "--photon"},
     {"render {S} -o {O} -k 5 -k 6", "twice"},
@@ -280,6 +286,29 @@ static void stop_at_interrupt(void)
     }
 }
 
+static void say_what_was_left_out(void)
+{
+    static const refusal lines[] = {
+        {"render {S} --size 8x8 --photons 500 --gather 0 --spp 1 --precompute on -o {O}",
+         "--precompute on: it has nothing to do"},
+        {"render {S} --size 8x8 --global-photons 500 --caustic-photons 0 --spp 1 -o {O}",
+         "paths LS+D are missing"},
+        {"render {S} --size 8x8 --caustic-photons 500 --global-photons 0 --spp 1 -o {O}",
+         "paths L{S|D}*D{S|D}*D"},
+        {"render {S} --size 8x8 -n 500 --only direct --direct photons --spp 1 -o {O}",
+         "500 shadow photons"},
+        {"render {S} --explain", "shadow maps"},
+        {"render {S} --check", "1 light\n"},
+    };
+    for (size_t i = 0; i < sizeof lines / sizeof lines[0]; ++i) {
+        pm_test_ran ran = pm_command_run(lines[i].line, good_scene, pm_command_path("out"));
+        CHECK_THAT(ran.exit_code == 0, "%s: exit code %d: %s", lines[i].line, ran.exit_code,
+                   ran.err);
+        CHECK_CONTAINS(ran.out, lines[i].words);
+        pm_test_ran_free(&ran);
+    }
+}
+
 static void refuse_bad_pictures(void)
 {
     const char *text = pm_command_write("a.exr", "this is no picture");
@@ -310,5 +339,7 @@ PM_TESTS({"programs.1", "good lines are accepted and leave their file", accept_g
          {"programs.9", "SIGINT ends with 130 and leaves no file", stop_at_interrupt},
          {"programs.10", "what is no picture and no photon map is refused",
           refuse_bad_pictures},
+         {"programs.12", "render says what its settings leave out, and sets no plural for one",
+          say_what_was_left_out},
          {"programs.11", "each broken scene of tests/bad is refused with its own words",
           refuse_broken_scenes})

@@ -86,7 +86,28 @@ static void plan_says_what_and_why(void)
         CHECK(json_is_true(json_object_get(item, "needed")) == (i % 2 == 0));
         CHECK(strcmp(json_string_value(json_object_get(item, "why")), why) == 0);
     }
+    CHECK(
+        strcmp(json_string_value(json_object_get(json_object_get(object, "caustic"), "paths")),
+               "LS+D") == 0);
+    CHECK(json_is_null(json_object_get(json_object_get(object, "caustic"), "missing")));
     json_decref(object);
+    pm_plan_miss(&plan, PM_PLAN_CAUSTIC, "LS+D is missing");
+    object = pm_report_plan(&plan);
+    json_t *missing = json_object_get(json_object_get(object, "caustic"), "missing");
+    CHECK(strcmp(json_string_value(missing), "LS+D is missing") == 0);
+    json_decref(object);
+}
+
+static void projections_say_what_they_saved(void)
+{
+    pm_projections aim = {.cells = 100,
+                          .active = 25,
+                          .dark = pm_rgb(3.0, 1.5, 0.75),
+                          .sent = 0.25,
+                          .why = "aimed"};
+    check_dump(pm_report_projection(&aim, 1000),
+               "{\"cells\":100,\"active\":25,\"dark\":[3.0,1.5,0.75],\"saved\":3000,"
+               "\"why\":\"aimed\"}");
 }
 
 static void lights_and_shapes_go_by_id(void)
@@ -131,6 +152,8 @@ PM_TESTS({"report.1", "a double comes back from JSON with every bit", doubles_ke
           flux_has_the_keys_of_the_contract},
          {"report.4", "the plan says of each part whether it is needed and why",
           plan_says_what_and_why},
+         {"report.8", "a projection says its cells, what was never sent and what that saved",
+          projections_say_what_they_saved},
          {"report.5", "lights and shapes go by their ids", lights_and_shapes_go_by_id},
          {"report.6", "NaN fails the report, and no file is written", nan_is_no_json},
          {"report.7", "a report that cannot be written is told by its path",
