@@ -164,7 +164,7 @@ void pm_plan_aim(pm_plan *plan, const pm_projections *const aim[PM_MAP_COUNT])
 {
     char said[sizeof plan->item[0].why] = "";
     bool needed = false;
-    for (int kind = 0; kind < PM_MAP_COUNT; kind++) {
+    for (pm_map_kind kind = 0; kind < PM_MAP_COUNT; kind++) {
         if (aim[kind] == NULL) {
             continue;
         }

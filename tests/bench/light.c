@@ -213,8 +213,8 @@ static bool projection_of(const bench *b, const char *way)
     double saved = 0.0;
     for (int i = 0; i < 2 * PAIRS; i++) {
         json_t *made = run(b,
-                           "render scenes/sparse.xml --only caustic --size 48x48 --spp 1 "
-                           "-n 50000 --seed %d --projection %s -o '%s/%s.exr'",
+                           "render scenes/sparse.xml --only caustic --size 32x32 --spp 64 "
+                           "-n 50000 -k 50000 -r 0.1 --seed %d --projection %s -o '%s/%s.exr'",
                            i + 1, way, b->folder, i % 2 == 0 ? "one" : "other");
         saved = number(made, "maps.caustic.projection.saved");
         bool good = done(made);
@@ -231,7 +231,8 @@ static bool projection_of(const bench *b, const char *way)
 
 static bool measure_projection(const bench *b)
 {
-    puts("scenes/sparse.xml, caustic layer, 48x48, 50000 photons, 16 seeds");
+    puts("scenes/sparse.xml, caustic layer, 32x32, 50000 photons, estimates of radius 0.1, 16 "
+         "seeds");
     return projection_of(b, "off") && projection_of(b, "on");
 }
 
