@@ -10,8 +10,8 @@ the file; nothing else of the project needs Mitsuba.
 
 A picture of SIDE x SIDE pixels is cut into GRID x GRID regions; a region's value is the mean of
 its pixels that count, its error the standard error of that mean over RUNS seeds. In `pixels`
-a `.` counts; an `L` sees a lamp, also in part; an `S` sees a mirror or glass first, which
-Mitsuba's particle tracer cannot show.
+a `.` counts; an `L` sees a lamp, also in part (where all do, in the furnace, they count); an `S`
+sees a mirror or glass first, which Mitsuba's particle tracer cannot show.
 """
 import argparse
 import json
@@ -59,6 +59,9 @@ def what_is_seen(mi, scene):
                 row[x // 8] = "L"
             elif mi.has_flag(hit.bsdf().flags(), mi.BSDFFlags.Delta) and row[x // 8] != "L":
                 row[x // 8] = "S"
+    lamps = sum(row.count("L") for row in letters)
+    if lamps == SIDE * SIDE:
+        return ["." * SIDE] * SIDE
     return ["".join(row) for row in letters]
 
 
