@@ -16,10 +16,6 @@
 #define PLACE_DIRECT 0x20000000u
 #define PLACE_GLINT 0x30000000u
 
-// A lookup is too near for its disc within so many of its radii. At one radius the rays just
-// beyond still land where discs hang over the edge.
-#define NEAR 2.0
-
 /// What a lattice's shift is for.
 enum { FOR_LIGHTS, FOR_GATHER, FOR_GLINT };
 
@@ -184,9 +180,9 @@ static pm_status ask_global(void *context, const pm_vertex *at, pm_rng *rng,
                             pm_spectrum *radiance)
 {
     (void)rng;
-    pm_estimate found;
-    PM_TRY(pm_lookup_global(context, at, &found));
-    *radiance = found.value;
+    pm_lookup end;
+    PM_TRY(pm_lookup_global(context, at, &end));
+    *radiance = end.estimate.value;
     return PM_OK;
 }
 
@@ -218,27 +214,34 @@ static pm_status near_indirect(pm_gather *gather, const pm_vertex *at, pm_rng *r
     return gather_ray(&last, at, &along, rng, radiance, &gather->cut);
 }
 
-/// The lookup that a gather ray ends with, and what replaces it on a surface too near for it.
-static pm_status ask_global_or_near(void *context, const pm_vertex *at, pm_rng *rng,
-                                    pm_spectrum *radiance)
+/// What leaves `at` without a lookup there, but for caustics, `reach` around.
+static pm_status go_on(pm_gather *gather, const pm_vertex *at, double reach, pm_rng *rng,
+                       pm_spectrum *radiance)
 {
-    pm_gather *gather = context;
-    pm_estimate found;
-    PM_TRY(pm_lookup_global(gather, at, &found));
-    double leg = pm_vec_length(pm_vec_sub(at->hit.position, at->from));
-    if (leg >= NEAR * found.radius) {
-        *radiance = found.value;
-        return PM_OK;
-    }
-    gather->near++;
     pm_spectrum caustic = pm_gray(0.0);
     pm_spectrum indirect;
     pm_spectrum direct = near_direct(gather, at, rng);
     if (gather->marked) {
-        PM_TRY(pm_lookup_marked(gather, at, found.radius, &caustic));
+        PM_TRY(pm_lookup_marked(gather, at, reach, &caustic));
     }
     PM_TRY(near_indirect(gather, at, rng, &indirect));
     *radiance = pm_spectrum_add(direct, pm_spectrum_add(caustic, indirect));
+    return PM_OK;
+}
+
+/// The lookup that a gather ray ends with, unless its disc is too large for the place.
+static pm_status ask_global_or_go_on(void *context, const pm_vertex *at, pm_rng *rng,
+                                     pm_spectrum *radiance)
+{
+    pm_gather *gather = context;
+    pm_lookup end;
+    PM_TRY(pm_lookup_global(gather, at, &end));
+    double leg = pm_vec_length(pm_vec_sub(at->hit.position, at->from));
+    if (leg < end.estimate.radius || end.edge) {
+        gather->near++;
+        return go_on(gather, at, end.estimate.radius, rng, radiance);
+    }
+    *radiance = end.estimate.value;
     return PM_OK;
 }
 
@@ -265,6 +268,6 @@ void pm_gather_sources(pm_gather *gather, pm_compose *compose)
         .indirect = !has_global ? NULL
                     : gathers   ? ask_indirect_gathered
                                 : ask_indirect_seen,
-        .global = has_global ? ask_global_or_near : NULL,
+        .global = has_global ? ask_global_or_go_on : NULL,
     };
 }

@@ -6,6 +6,7 @@
 #include "irradiance.h"
 
 #include "coarse_normal.h"
+#include "lean.h"
 #include "photon_map.h"
 #include "store.h"
 #include "tiles.h"
@@ -20,7 +21,7 @@
 #define ABOVE 0x1p-17
 
 /// What a place keeps in the direction that it has no other use for.
-enum { RADIUS, FOUND };
+enum { RADIUS, FOUND, LEAN };
 
 typedef struct {
     const pm_intersector *world;
@@ -50,12 +51,16 @@ static pm_vec3 normal_under(const pm_intersector *world, const pm_photon_view *p
     return pm_vec_dot(normal, photon->normal) >= SAME ? normal : photon->normal;
 }
 
-static pm_status estimate_at(const making *pass, uint32_t index, pm_neighbour *scratch,
-                             pm_estimate *found)
+static pm_photon_exact pack(const pm_estimate *found, double lean)
 {
-    pm_photon_view photon = pm_store_unpack(pass->global, index);
-    pm_estimate_point point = {photon.position, normal_under(pass->world, &photon)};
-    return pm_estimate_irradiance(pass->global, pass->settings, &point, scratch, found);
+    pm_photon_exact exact;
+    for (int c = 0; c < 3; c++) {
+        exact.power[c] = (float)found->value.c[c];
+    }
+    exact.direction[RADIUS] = (float)found->radius;
+    exact.direction[FOUND] = (float)found->found;
+    exact.direction[LEAN] = (float)lean;
+    return exact;
 }
 
 static pm_status make_place(const void *context, void *scratch, int x, int y)
@@ -65,17 +70,14 @@ static pm_status make_place(const void *context, void *scratch, int x, int y)
     if (index >= pass->places->count) {
         return PM_OK;
     }
-    const pm_photon *photon = &pass->global->photons[index * pass->spacing];
+    uint32_t from = index * pass->spacing;
+    pm_photon_view photon = pm_store_unpack(pass->global, from);
+    pm_estimate_point point = {photon.position, normal_under(pass->world, &photon)};
     pm_estimate found;
-    PM_TRY(estimate_at(pass, index * pass->spacing, scratch, &found));
-    pm_photon *place = &pass->places->photons[index];
-    *place = *photon;
-    pm_photon_exact *exact = &pass->places->exact[index];
-    *exact = (pm_photon_exact){
-        .direction = {[RADIUS] = (float)found.radius, [FOUND] = (float)found.found}};
-    for (int c = 0; c < 3; c++) {
-        exact->power[c] = (float)found.value.c[c];
-    }
+    PM_TRY(pm_estimate_irradiance(pass->global, pass->settings, &point, scratch, &found));
+    double lean = pm_lean_of(pass->global, scratch, &found, &point);
+    pass->places->photons[index] = pass->global->photons[from];
+    pass->places->exact[index] = pack(&found, lean);
     return PM_OK;
 }
 
@@ -165,18 +167,21 @@ static bool covers(const void *context, const pm_photon *place, double *distance
     return *distance2 <= radius * radius;
 }
 
-static pm_estimate read_place(const pm_photon_map *places, uint32_t index)
+static void read_place(const pm_photon_map *places, uint32_t index, pm_estimate *found,
+                       double *lean)
 {
-    return (pm_estimate){
+    const float *kept = places->exact[index].direction;
+    *found = (pm_estimate){
         .value = pm_store_power(places, index),
-        .radius = (double)places->exact[index].direction[RADIUS],
-        .found = (uint32_t)places->exact[index].direction[FOUND],
+        .radius = (double)kept[RADIUS],
+        .found = (uint32_t)kept[FOUND],
     };
+    *lean = (double)kept[LEAN];
 }
 
 pm_status pm_irradiance_find(const pm_photon_map *places, const pm_estimate_settings *settings,
                              double reach, const pm_estimate_point *point, bool *covered,
-                             pm_estimate *found)
+                             pm_estimate *found, double *lean)
 {
     asking who = {{*point, settings->shape, settings->flatness, 0, 0}, places};
     pm_search search = {
@@ -195,7 +200,7 @@ pm_status pm_irradiance_find(const pm_photon_map *places, const pm_estimate_sett
     PM_TRY(pm_balance_nearest(places, &search, &nearest, &count, NULL));
     *covered = count > 0;
     if (*covered) {
-        *found = read_place(places, nearest.index);
+        read_place(places, nearest.index, found, lean);
     }
     return PM_OK;
 }

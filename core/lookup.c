@@ -2,6 +2,7 @@
 #include "lookup.h"
 
 #include "irradiance.h"
+#include "lean.h"
 
 #include <stddef.h>
 
@@ -23,7 +24,7 @@ static void count(pm_gather *gather, const pm_estimate *found)
 
 /// By an irradiance that was estimated before; `covered` says whether one is near enough.
 static pm_status look_up_place(const pm_gather *gather, const pm_vertex *at, bool *covered,
-                               pm_estimate *found)
+                               pm_estimate *found, double *lean)
 {
     *covered = false;
     if (gather->irradiance == NULL || !pm_material_is_lambertian(&at->lobes)) {
@@ -31,7 +32,7 @@ static pm_status look_up_place(const pm_gather *gather, const pm_vertex *at, boo
     }
     pm_estimate_point point = {at->hit.position, at->lobes.normal};
     PM_TRY(pm_irradiance_find(gather->irradiance, &gather->settings.estimate,
-                              gather->irradiance_reach, &point, covered, found));
+                              gather->irradiance_reach, &point, covered, found, lean));
     if (*covered) {
         pm_spectrum f = pm_material_evaluate(&at->lobes, at->lobes.normal);
         found->value = pm_spectrum_mul(found->value, f);
@@ -39,13 +40,19 @@ static pm_status look_up_place(const pm_gather *gather, const pm_vertex *at, boo
     return PM_OK;
 }
 
-pm_status pm_lookup_global(pm_gather *gather, const pm_vertex *at, pm_estimate *found)
+pm_status pm_lookup_global(pm_gather *gather, const pm_vertex *at, pm_lookup *end)
 {
     bool covered;
-    PM_TRY(look_up_place(gather, at, &covered, found));
+    double lean;
+    pm_estimate *found = &end->estimate;
+    PM_TRY(look_up_place(gather, at, &covered, found, &lean));
     if (!covered) {
+        const pm_photon_map *global = gather->map[PM_MAP_GLOBAL];
+        pm_estimate_point point = {at->hit.position, at->lobes.normal};
         PM_TRY(look_up(gather, PM_MAP_GLOBAL, &gather->settings.estimate, at, found));
+        lean = pm_lean_of(global, gather->scratch, found, &point);
     }
+    end->edge = pm_lean_is_edge(lean, found->found);
     count(gather, found);
     return PM_OK;
 }

@@ -5,11 +5,17 @@
 
 #include "gather.h"
 
+/// What the end of a gather ray finds.
+typedef struct {
+    pm_estimate estimate; // its value is a radiance [W/(m^2 sr)]
+    bool edge;            // its disc hangs over an edge (lean.h)
+} pm_lookup;
+
 /// Everything that leaves a vertex by its D lobes, as the end of a gather ray: all photons of
 /// the global map, or the irradiance of a place near by where there is one and the vertex is
 /// Lambertian.
-/// @param found  [out] its value is a radiance [W/(m^2 sr)]
-pm_status pm_lookup_global(pm_gather *gather, const pm_vertex *at, pm_estimate *found);
+/// @param end  [out]
+pm_status pm_lookup_global(pm_gather *gather, const pm_vertex *at, pm_lookup *end);
 
 /// The global map seen directly: without LD, which shadow rays bring, and LS+D, which the
 /// caustic layer has.

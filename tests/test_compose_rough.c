@@ -17,7 +17,6 @@ static void begin(pm_desk *d, int above)
     int lamp = pm_scenes_wear(&d->s, pm_scenes_square(4.0, -1.0, false), white);
     pm_scenes_lamp(&d->s, lamp, pm_gray(1.0));
     pm_scenes_wear(&d->s, pm_scenes_square(4.0, 1.0, true), above);
-    pm_desk_ready(d);
 }
 
 // --- sky -------------------------------------------------------------------------------------
@@ -50,6 +49,7 @@ static void black_sky_leaves_no_mask(void)
     pm_desk d = {.sky = 0.0};
     pm_scenes_begin(&d.s);
     begin(&d, pm_scenes_mirror(&d.s, pm_gray(0.5)));
+    pm_desk_ready(&d);
     CHECK(!pm_desk_look(&d, middle, pm_vec(1.0, 0.0, 0.0), 0).emitter);
     d.sky = 1.0;
     d.compose.wanted[PM_LAYER_EMISSION] = false;
@@ -65,6 +65,7 @@ static void gather_rays_see_no_sky(void)
     pm_desk d = {.sky = 7.0};
     pm_scenes_begin(&d.s);
     begin(&d, pm_scenes_mirror(&d.s, pm_gray(1.0)));
+    pm_desk_ready(&d);
     CHECK_NEAR(pm_desk_gather(&d, middle, pm_vec(1.0, 0.0, 0.0), 0), 0.0, 0.0);
     CHECK_NEAR(pm_desk_gather(&d, middle, pm_vec(1.9, 0.0, 1.0), 0), 0.0, 0.0); // mirrored
     CHECK_NEAR(pm_desk_gather(&d, middle, down, 0), PM_DESK_GLOBAL, 0.0);
@@ -78,6 +79,7 @@ static void glint_is_asked_at_rough_mirrors_only(void)
     pm_desk d = {0};
     pm_scenes_begin(&d.s);
     begin(&d, pm_scenes_rough_mirror(&d.s, PM_MICROFACET_GGX, 0.05));
+    pm_desk_ready(&d);
     pm_eye eye = pm_desk_look(&d, middle, up, 0);
     CHECK(d.glint == 1 && d.direct == 1); // the second at the lamp below
     CHECK(eye.layer[PM_LAYER_SPECULAR].c[0] > PM_DESK_GLINT);
@@ -100,6 +102,7 @@ static void smooth_and_wide_lobes_have_no_glint(void)
     pm_desk d = {0};
     pm_scenes_begin(&d.s);
     begin(&d, pm_scenes_mirror(&d.s, pm_gray(1.0)));
+    pm_desk_ready(&d);
     pm_desk_look(&d, middle, up, 0);
     int wide = pm_scenes_rough_mirror(&d.s, PM_MICROFACET_BECKMANN, 0.3);
     d.s.shapes[1].material[0] = wide;

@@ -111,9 +111,9 @@ static void near_ceilings_are_lit_by_shadow_rays(void)
 static pm_status plainly(void *context, const pm_vertex *at, pm_rng *rng, pm_spectrum *radiance)
 {
     (void)rng;
-    pm_estimate found;
-    PM_TRY(pm_lookup_global(context, at, &found));
-    *radiance = found.value;
+    pm_lookup end;
+    PM_TRY(pm_lookup_global(context, at, &end));
+    *radiance = end.estimate.value;
     return PM_OK;
 }
 

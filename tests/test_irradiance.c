@@ -77,7 +77,8 @@ static void compare(const pm_photon_map *places, const pm_photon_map *map, pm_ve
         pm_neighbour scratch[K];
         bool covered;
         pm_estimate found;
-        CHECK_OK(pm_irradiance_find(places, &settings, reach, &point, &covered, &found));
+        double lean;
+        CHECK_OK(pm_irradiance_find(places, &settings, reach, &point, &covered, &found, &lean));
         CHECK(covered && found.radius > 0.0 && found.found == K);
         *by_place += found.value.c[0] / LOOKUPS;
         CHECK_OK(pm_estimate_irradiance(map, &settings, &point, scratch, &found));
@@ -127,17 +128,19 @@ static void each_side_of_a_wall_has_its_own(void)
     double reach = pm_irradiance_reach(&places);
     bool covered;
     pm_estimate found = {.radius = -1.0};
+    double lean;
     pm_estimate_point behind = {{0.1, 0.2, 0.0}, {0.0, 0.0, -1.0}};
-    CHECK_OK(pm_irradiance_find(&places, &settings, reach, &behind, &covered, &found));
+    CHECK_OK(pm_irradiance_find(&places, &settings, reach, &behind, &covered, &found, &lean));
     CHECK(!covered && found.radius == -1.0);
     pm_estimate_point across = {{0.1, 0.2, 0.0}, {1.0, 0.0, 0.0}}; // the foot of a wall
-    CHECK_OK(pm_irradiance_find(&places, &settings, reach, &across, &covered, &found));
+    CHECK_OK(pm_irradiance_find(&places, &settings, reach, &across, &covered, &found, &lean));
     CHECK(!covered);
     pm_estimate_point beyond = {{5.0, 0.0, 0.0}, {0.0, 0.0, 1.0}};
-    CHECK_OK(pm_irradiance_find(&places, &settings, HUGE_VAL, &beyond, &covered, &found));
+    CHECK_OK(
+        pm_irradiance_find(&places, &settings, HUGE_VAL, &beyond, &covered, &found, &lean));
     CHECK(!covered); // by no place's own disc, however far one looks
     pm_estimate_point front = {{0.1, 0.2, 0.0}, {0.0, 0.0, 1.0}};
-    CHECK_OK(pm_irradiance_find(&places, &settings, reach, &front, &covered, &found));
+    CHECK_OK(pm_irradiance_find(&places, &settings, reach, &front, &covered, &found, &lean));
     CHECK(covered);
     pm_photon_map_free(&places);
     pm_photon_map_free(&map);
@@ -191,7 +194,9 @@ static void the_nearest_place_is_found(void)
         pm_estimate_point point = {at.hit.position, at.lobes.normal};
         bool covered;
         pm_estimate found;
-        CHECK_OK(pm_irradiance_find(&places, &settings, reach, &point, &covered, &found));
+        double lean;
+        CHECK_OK(
+            pm_irradiance_find(&places, &settings, reach, &point, &covered, &found, &lean));
         uint32_t want = nearest_place(&places, &point);
         CHECK(covered == (want != UINT32_MAX));
         if (covered) {

@@ -121,6 +121,7 @@ static void threads_do_not_matter_to_any_part(void)
     int plastic = pm_scenes_rough_plastic(&s, pm_gray(0.5), 1.5, PM_MICROFACET_BECKMANN, 0.2);
     s.shapes[4].material[0] = plastic;
     pm_scenes_sky(&s, pm_gray(1.0));
+    pm_intersector_free(&s.world);
     pm_scenes_ready(&s);
     pm_render_settings settings = gathering();
     settings.direct_photons = settings.precompute = settings.light.caustics_global = true;
