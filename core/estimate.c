@@ -23,7 +23,8 @@
 typedef struct {
     uint32_t found;
     uint32_t left_out; // place in the list of the photon that only sets the radius
-    double radius2;    // squared, > 0 when a photon counts
+    double radius2;    // squared, in the measure of the search, > 0 when a photon counts
+    double flat2;      // the same in the plane of the disc
     bool floored;
 } extent;
 
@@ -107,13 +108,31 @@ static uint32_t farthest(const pm_neighbour *nearest, uint32_t found)
     return last;
 }
 
+/// Squared distance, in the plane of the disc, of the photon that is widest there. Where the
+/// surface curves away photons lie off the plane, and their distance in the disc's measure is
+/// longer than the radius that they fill.
+static double widest2(const pm_photon_map *map, const pm_estimate_query *query,
+                      const pm_neighbour *nearest, uint32_t found)
+{
+    double widest = 0.0;
+    for (uint32_t i = 0; i < found; i++) {
+        const float *at = map->photons[nearest[i].index].position;
+        pm_vec3 position = pm_vec((double)at[0], (double)at[1], (double)at[2]);
+        pm_vec3 away = pm_vec_sub(position, query->point.at);
+        double height = pm_vec_dot(away, query->point.normal);
+        widest = pm_most(widest, pm_vec_dot(away, away) - height * height);
+    }
+    return widest;
+}
+
 /// The rule of the header: k found, or no reach: the farthest photon sets the radius and is
 /// left out (the lecture keeps it); fewer in a finite reach: all count, over the area of the
 /// reach.
 static extent extent_of(const pm_estimate_settings *settings, pm_vec3 at,
                         const pm_neighbour *nearest, uint32_t found)
 {
-    extent result = {found, LEFT_OUT_NONE, settings->radius * settings->radius, false};
+    double reach2 = settings->radius * settings->radius;
+    extent result = {found, LEFT_OUT_NONE, reach2, reach2, false};
     if (found == 0 || (found < settings->k && isfinite(settings->radius))) {
         return result;
     }
@@ -122,7 +141,19 @@ static extent extent_of(const pm_estimate_settings *settings, pm_vec3 at,
     result.left_out = settings->plain_k ? LEFT_OUT_NONE : last;
     result.floored = nearest[last].distance2 < least * least;
     result.radius2 = result.floored ? least * least : nearest[last].distance2;
+    result.flat2 = result.radius2;
     return result;
+}
+
+/// The area of a disc is that in its plane, where a photon set its radius.
+static void flatten(const pm_photon_map *map, const pm_estimate_settings *settings,
+                    const pm_estimate_query *query, const pm_neighbour *nearest, extent *area)
+{
+    bool by_reach = area->found < settings->k && isfinite(settings->radius);
+    if (query->shape == PM_GATHER_DISC && area->found > 0 && !by_reach) {
+        double least = least_radius(query->point.at);
+        area->flat2 = pm_most(widest2(map, query, nearest, area->found), least * least);
+    }
 }
 
 static pm_status search(const pm_photon_map *map, const pm_estimate_settings *settings,
@@ -175,7 +206,7 @@ static pm_estimate make_estimate(const extent *area, pm_spectrum sum, double mea
     bool none = area->found == 0;
     return (pm_estimate){
         .value = none ? pm_gray(0.0) : pm_spectrum_scale(sum, 1.0 / measure),
-        .radius = none ? 0.0 : sqrt(area->radius2),
+        .radius = none ? 0.0 : sqrt(area->flat2),
         .found = area->found,
         .floored = area->floored,
     };
@@ -196,8 +227,9 @@ static pm_status estimate_surface(const pm_photon_map *map,
     double normalisation;
     PM_TRY(pm_filter_normalisation(settings->filter, settings->constants, &normalisation));
     PM_TRY(search(map, settings, what, scratch, &area));
+    flatten(map, settings, &query, scratch, &area);
     PM_TRY(sum_weighed(map, settings, scratch, &area, response, context, &sum));
-    *out = make_estimate(&area, sum, normalisation * PM_PI * area.radius2);
+    *out = make_estimate(&area, sum, normalisation * PM_PI * area.flat2);
     return PM_OK;
 }
 

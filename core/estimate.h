@@ -1,10 +1,11 @@
 // Lab 5. From photons to radiance: the density of the nearest photons, times what the surface
 // does.
 //
-// With k photons found, the farthest sets the radius and is left out; its area is pi r_k^2.
-// With a finite reach and fewer found, all count and the area is that of the reach. Either way
-// the mean is right for a uniform field when k >= 2. k = 1 gives 0. Without a reach, what was
-// found stands for k.
+// With k photons found, the farthest sets the radius and is left out; its area is pi r_k^2, of
+// a disc with r_k in its plane, so that curved surfaces are as bright as flat ones. With a
+// finite reach and fewer found, all count and the area is that of the reach. Either way the
+// mean is right for a uniform field when k >= 2. k = 1 gives 0. Without a reach, what was found
+// stands for k.
 #ifndef PM_ESTIMATE_H
 #define PM_ESTIMATE_H
 

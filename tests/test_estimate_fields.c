@@ -173,6 +173,48 @@ static void a_sphere_adds_the_wall_a_disc_does_not(void)
     CHECK_NEAR(black.mean, 0.5, 5.0 * black.sd / sqrt(trials));
 }
 
+/// An even field on a ball of radius 1, asked at its pole.
+static pm_moments ask_ball(uint32_t k, double each, int trials)
+{
+    pm_photon_map map = {.kind = PM_MAP_GLOBAL, .unpacked = true};
+    pm_estimate_settings settings = pm_estimate_defaults();
+    settings.k = k;
+    pm_estimate_point pole = {{0.0, 0.0, 1.0}, {0.0, 0.0, 1.0}};
+    double sum = 0.0;
+    double sum2 = 0.0;
+    for (int t = 0; t < trials; t++) {
+        pm_rng rng = pm_fields_rng((uint64_t)t);
+        pm_fields_empty(&map);
+        double area = 0.0;
+        for (uint32_t i = 0; i <= k; i++) {
+            area += each * pm_fields_exponential(&rng);
+            double z = 1.0 - area / (2.0 * PM_PI); // of a cap
+            double phi = 2.0 * PM_PI * pm_rng_draw(&rng);
+            double across = sqrt(1.0 - z * z);
+            pm_vec3 at = pm_vec(across * cos(phi), across * sin(phi), z);
+            pm_fields_push(&map, at, at, each);
+        }
+        pm_fields_finish(&map);
+        double value = pm_fields_ask(&map, &settings, &pole).value.c[0];
+        sum += value;
+        sum2 += value * value;
+    }
+    pm_photon_map_free(&map);
+    return pm_fields_moments(sum, sum2, trials);
+}
+
+// The disc, flattened ten times, holds the cap, whose area A is seen from above as
+// A (1 - A / (4 pi)). Had the area the radius that the disc measures by, 1 + 25 sin^2 were
+// lost: more than half.
+static void a_ball_is_as_bright_as_a_plane(void)
+{
+    const int trials = 2000;
+    const double each = 0.004;
+    pm_moments got = ask_ball(50, each, trials);
+    double seen = 1.0 + 49.0 * each / (4.0 * PM_PI);
+    CHECK_NEAR(got.mean, seen, 5.0 * got.sd / sqrt(trials));
+}
+
 // --- in space
 
 static void even_media_have_mean_one(void)
@@ -222,4 +264,6 @@ PM_TESTS({"estimate_fields.1", "an even field has mean 1 and the known noise for
          {"estimate_fields.5", "at an edge a sphere adds the wall and a disc a tenth of it",
           a_sphere_adds_the_wall_a_disc_does_not},
          {"estimate_fields.6", "an even medium has mean 1 and the known noise",
-          even_media_have_mean_one})
+          even_media_have_mean_one},
+         {"estimate_fields.7", "a curved surface fills the disc's plane, not its measure",
+          a_ball_is_as_bright_as_a_plane})
