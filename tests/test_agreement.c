@@ -114,7 +114,7 @@ static void cornell_spheres_agrees(void)
 
 static void cornell_glossy_agrees(void)
 {
-    check_scene(&(example){"scenes/cornell-glossy.xml", "edsci", 0.1, 0.0, 0});
+    check_scene(&(example){"scenes/cornell-glossy.xml", "edsci", round_enough, 0.0, 0});
 }
 
 static void lights_agrees(void)
