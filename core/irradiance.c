@@ -32,7 +32,7 @@ typedef struct {
 } making;
 
 /// The normal of the surface that holds the photon. The coarse one would tilt the disc, which
-/// then misses photons at its rim: up to a tenth of the irradiance.
+/// then misses photons at its rim: some percent of the irradiance.
 static pm_vec3 normal_under(const pm_intersector *world, const pm_photon_view *photon)
 {
     double above = ABOVE * pm_vec_reach(photon->position);
