@@ -40,7 +40,8 @@ typedef struct {
     bool tap, list, strict;
     const char *json;
     size_t jobs;
-    double limit; // [s] of a test that asks for none; others are scaled alike
+    double limit;        // [s] of a test that asks for none; others are scaled alike
+    const char *without; // beginnings of tags, separated by blanks
     char **filters;
     size_t filter_count;
 } options;
@@ -54,15 +55,18 @@ typedef struct {
 
 static void usage(FILE *out)
 {
-    fputs("usage: run [--tap] [--json FILE] [--jobs N] [--limit SEC] [--list] [FILTER...]\n"
-          "  FILTER       the beginning of a test's tag, or a part of its title\n"
-          "  --tap        results in TAP\n"
-          "  --json FILE  results as JSON in FILE as well\n"
-          "  --jobs N     tests that run side by side (default: one per core)\n"
-          "  --limit SEC  time limit of one test (default 60)\n"
-          "  --list       name the tests and run none\n"
-          "STRICT=1 in the environment makes a skipped test a failure.\n",
-          out);
+    fputs(
+        "usage: run [--tap] [--json FILE] [--jobs N] [--limit SEC] [--without TAGS] [--list]\n"
+        "           [FILTER...]\n"
+        "  FILTER       the beginning of a test's tag, or a part of its title\n"
+        "  --tap        results in TAP\n"
+        "  --json FILE  results as JSON in FILE as well\n"
+        "  --jobs N     tests that run side by side (default: one per core)\n"
+        "  --limit SEC  time limit of one test (default 60)\n"
+        "  --without \"A B\"  leaves out tests whose tag begins so\n"
+        "  --list       name the tests and run none\n"
+        "STRICT=1 in the environment makes a skipped test a failure.\n",
+        out);
 }
 
 static double positive_number(const char *text)
@@ -84,13 +88,11 @@ static size_t job_count(double wanted)
 
 static options read_options(int argc, char **argv)
 {
-    static const struct option known[] = {{"tap", no_argument, NULL, 't'},
-                                          {"json", required_argument, NULL, 'o'},
-                                          {"jobs", required_argument, NULL, 'j'},
-                                          {"limit", required_argument, NULL, 'l'},
-                                          {"list", no_argument, NULL, 'n'},
-                                          {"help", no_argument, NULL, 'h'},
-                                          {NULL, 0, NULL, 0}};
+    static const struct option known[] = {
+        {"tap", no_argument, NULL, 't'},           {"json", required_argument, NULL, 'o'},
+        {"jobs", required_argument, NULL, 'j'},    {"limit", required_argument, NULL, 'l'},
+        {"without", required_argument, NULL, 'w'}, {"list", no_argument, NULL, 'n'},
+        {"help", no_argument, NULL, 'h'},          {NULL, 0, NULL, 0}};
     const char *strict = getenv("STRICT");
     options o = {.limit = usual_limit, .strict = strict && strcmp(strict, "1") == 0};
     o.jobs = job_count((double)sysconf(_SC_NPROCESSORS_ONLN));
@@ -108,6 +110,9 @@ static options read_options(int argc, char **argv)
         case 'l':
             o.limit = positive_number(optarg);
             break;
+        case 'w':
+            o.without = optarg;
+            break;
         case 'n':
             o.list = true;
             break;
@@ -124,8 +129,23 @@ static options read_options(int argc, char **argv)
     return o;
 }
 
+static bool left_out(const options *o, const pm_test *test)
+{
+    const char *word = o->without == NULL ? "" : o->without;
+    for (size_t length; *(word += strspn(word, " ")) != '\0'; word += length) {
+        length = strcspn(word, " ");
+        if (strncmp(test->tag, word, length) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
 static bool wanted(const options *o, const pm_test *test)
 {
+    if (left_out(o, test)) {
+        return false;
+    }
     bool found = o->filter_count == 0;
     for (size_t i = 0; i < o->filter_count; ++i) {
         const char *filter = o->filters[i];
