@@ -26,7 +26,7 @@ for scene in scenes/*.xml; do
     name=${name%.xml}
     picture "$scene" "$name.quick" --global-photons 20000 --caustic-photons 20000 -k 50 \
         --gather 0 --spp 1
-    picture "$scene" "$name.good"
+    picture "$scene" "$name.good" --gather 32
     pictures="$pictures $out/$name.quick.exr $out/$name.good.exr"
 done
 
