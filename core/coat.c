@@ -140,8 +140,10 @@ static void prepare_rough(pm_material *material)
     inside.eta = n;
     for (int i = 0; i < PM_COSINE_TABLE; i++) {
         double cosine = (double)i / (PM_COSINE_TABLE - 1);
-        // A coat of the index around it is not there, however rough.
-        material->coat[i] = n == 1.0 ? 1.0 : facet_means(outside, cosine).through;
+        // A coat of the index around it is not there, however rough; at nearly that index
+        // rounding could let through more than comes.
+        double through = n == 1.0 ? 1.0 : facet_means(outside, cosine).through;
+        material->coat[i] = pm_least(1.0, through);
     }
     material->coat_mean = mean_of_table(material->coat);
     // What gets in on average gets out alike, over n^2. The rest, less what masking loses, is

@@ -51,17 +51,8 @@ static pm_spectrum response(const receiver *to, const pm_light_sample *sample)
 /// Whether something stands between the receiver and the light.
 static bool shadowed(pm_direct_query *query, const receiver *to, const pm_light_sample *sample)
 {
-    pm_ray ray = pm_hit_ray(to->hit, sample->direction, 0.0, to->lobes->medium_here);
-    if (!sample->endless) {
-        pm_vec3 way = pm_vec_sub(sample->target, ray.origin);
-        ray.t_max = pm_vec_length(way);
-        if (ray.t_max == 0.0) {
-            return false;
-        }
-        ray.direction = pm_vec_scale(way, 1.0 / ray.t_max);
-    }
     query->rays++;
-    return pm_blocked(query->world, &ray);
+    return pm_light_blocked(query->world, to->hit, to->lobes->medium_here, sample);
 }
 
 /// What the shadow photons say of one light, once they were asked.
@@ -193,11 +184,7 @@ static pm_spectrum sky_on_wide(pm_direct_query *query, const receiver *to, pm_sp
     for (uint32_t s = 0; s < query->samples; s++) {
         double u[2];
         lattice_point(query, s, query->samples, u);
-        double radius = sqrt(u[0]);
-        double phi = 2.0 * PM_PI * u[1];
-        pm_vec3 local = pm_vec(radius * cos(phi), radius * sin(phi), sqrt(1.0 - u[0]));
-        pm_light_sample sample = {.direction = pm_frame_to_world(&frame, local),
-                                  .endless = true};
+        pm_light_sample sample = {.direction = pm_frame_cosine(&frame, u), .endless = true};
         pm_spectrum f = wide_response(to->lobes, sample.direction);
         if (!pm_spectrum_is_black(f) && !shadowed(query, to, &sample)) {
             sum = pm_spectrum_add(sum, pm_spectrum_mul(f, sky));

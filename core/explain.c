@@ -131,13 +131,8 @@ json_t *pm_explain_choices(const pm_render_settings *settings, const pm_render_m
 
 json_t *pm_explain_json(const pm_render_settings *settings, const pm_render_maps *maps)
 {
-    json_t *photons = json_object();
-    for (pm_map_kind kind = 0; kind < PM_MAP_COUNT; kind++) {
-        json_t *count = json_integer((json_int_t)maps->photons[kind]);
-        photons = pm_report_add(photons, pm_map_name(kind), count);
-    }
     json_t *object = pm_report_add(json_object(), "plan", pm_report_plan(&maps->plan));
-    object = pm_report_add(object, "photons", photons);
+    object = pm_report_add(object, "photons", pm_report_photons(maps->photons));
     object = pm_report_add(object, "choices", pm_explain_choices(settings, maps));
     json_t *missing = json_pack("[{s:s,s:s}]", "what", "shadow maps", "why", no_shadow_maps);
     return pm_report_add(object, "not_offered", missing);

@@ -237,7 +237,7 @@ static pm_status ask_global_or_go_on(void *context, const pm_vertex *at, pm_rng 
     pm_lookup end;
     PM_TRY(pm_lookup_global(gather, at, &end));
     double leg = pm_vec_length(pm_vec_sub(at->hit.position, at->from));
-    if (leg < end.estimate.radius || end.edge) {
+    if (leg < end.estimate.radius || end.uneven) {
         gather->near++;
         return go_on(gather, at, end.estimate.radius, rng, radiance);
     }

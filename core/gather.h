@@ -2,10 +2,10 @@
 // (lookup.h), the final gather. One pm_gather a thread; the maps behind it are shared and only
 // read.
 //
-// Where the disc at the end of a gather ray hangs over an edge, its estimate is too dark: so do
-// photons tell by lying to one side of it (lean.h), and so it is likely on a surface nearer
-// than the disc's radius. Such a ray goes on one bounce instead: direct light by shadow rays,
-// caustics by the global map, the rest from where one more ray ends.
+// Where the disc at the end of a gather ray hangs over an edge or is wider than the surface,
+// its estimate is too dark: so photons tell that do not fill it (fill.h), and so it is likely
+// on a surface nearer than the disc's radius. Such a ray goes on one bounce instead: direct
+// light by shadow rays, caustics by the global map, the rest from where one more ray ends.
 #ifndef PM_GATHER_H
 #define PM_GATHER_H
 

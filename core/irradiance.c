@@ -6,7 +6,7 @@
 #include "irradiance.h"
 
 #include "coarse_normal.h"
-#include "lean.h"
+#include "fill.h"
 #include "photon_map.h"
 #include "store.h"
 #include "tiles.h"
@@ -21,7 +21,7 @@
 #define ABOVE 0x1p-17
 
 /// What a place keeps in the direction that it has no other use for.
-enum { RADIUS, FOUND, LEAN };
+enum { RADIUS, FOUND, UNEVEN };
 
 typedef struct {
     const pm_intersector *world;
@@ -51,7 +51,7 @@ static pm_vec3 normal_under(const pm_intersector *world, const pm_photon_view *p
     return pm_vec_dot(normal, photon->normal) >= SAME ? normal : photon->normal;
 }
 
-static pm_photon_exact pack(const pm_estimate *found, double lean)
+static pm_photon_exact pack(const pm_estimate *found, double unevenness)
 {
     pm_photon_exact exact;
     for (int c = 0; c < 3; c++) {
@@ -59,7 +59,7 @@ static pm_photon_exact pack(const pm_estimate *found, double lean)
     }
     exact.direction[RADIUS] = (float)found->radius;
     exact.direction[FOUND] = (float)found->found;
-    exact.direction[LEAN] = (float)lean;
+    exact.direction[UNEVEN] = (float)unevenness;
     return exact;
 }
 
@@ -75,9 +75,9 @@ static pm_status make_place(const void *context, void *scratch, int x, int y)
     pm_estimate_point point = {photon.position, normal_under(pass->world, &photon)};
     pm_estimate found;
     PM_TRY(pm_estimate_irradiance(pass->global, pass->settings, &point, scratch, &found));
-    double lean = pm_lean_of(pass->global, scratch, &found, &point);
+    double unevenness = pm_fill_unevenness(pass->global, scratch, &found, &point);
     pass->places->photons[index] = pass->global->photons[from];
-    pass->places->exact[index] = pack(&found, lean);
+    pass->places->exact[index] = pack(&found, unevenness);
     return PM_OK;
 }
 
@@ -168,7 +168,7 @@ static bool covers(const void *context, const pm_photon *place, double *distance
 }
 
 static void read_place(const pm_photon_map *places, uint32_t index, pm_estimate *found,
-                       double *lean)
+                       double *unevenness)
 {
     const float *kept = places->exact[index].direction;
     *found = (pm_estimate){
@@ -176,12 +176,12 @@ static void read_place(const pm_photon_map *places, uint32_t index, pm_estimate 
         .radius = (double)kept[RADIUS],
         .found = (uint32_t)kept[FOUND],
     };
-    *lean = (double)kept[LEAN];
+    *unevenness = (double)kept[UNEVEN];
 }
 
 pm_status pm_irradiance_find(const pm_photon_map *places, const pm_estimate_settings *settings,
                              double reach, const pm_estimate_point *point, bool *covered,
-                             pm_estimate *found, double *lean)
+                             pm_estimate *found, double *unevenness)
 {
     asking who = {{*point, settings->shape, settings->flatness, 0, 0}, places};
     pm_search search = {
@@ -200,7 +200,7 @@ pm_status pm_irradiance_find(const pm_photon_map *places, const pm_estimate_sett
     PM_TRY(pm_balance_nearest(places, &search, &nearest, &count, NULL));
     *covered = count > 0;
     if (*covered) {
-        read_place(places, nearest.index, found, lean);
+        read_place(places, nearest.index, found, unevenness);
     }
     return PM_OK;
 }

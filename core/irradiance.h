@@ -17,7 +17,8 @@
 /// @param spacing   >= 1
 /// @param places    [out] a balanced map with exact values: power is the irradiance [W/m^2],
 ///                  direction the radius [m] of the estimate, the photons found by it, and
-///                  their lean (lean.h); untouched unless PM_OK; freed by pm_photon_map_free()
+///                  its unevenness (fill.h); untouched unless PM_OK; freed by
+///                  pm_photon_map_free()
 /// @return PM_EINPUT as pm_estimate_irradiance(); PM_ENOMEM; PM_ESTOPPED on SIGINT
 pm_status pm_irradiance_make(const pm_intersector *world, const pm_photon_map *global,
                              const pm_estimate_settings *settings, uint32_t spacing,
@@ -32,10 +33,10 @@ double pm_irradiance_reach(const pm_photon_map *places);
 /// @param settings  of the estimates: shape and flatness of their discs
 /// @param reach     [m] from pm_irradiance_reach()
 /// @param covered   [out] whether there is such a place
-/// @param found     [out] its estimate, and its lean; untouched unless covered
+/// @param found     [out] its estimate, and its unevenness; untouched unless covered
 /// @return PM_EINPUT as pm_balance_nearest()
 pm_status pm_irradiance_find(const pm_photon_map *places, const pm_estimate_settings *settings,
                              double reach, const pm_estimate_point *point, bool *covered,
-                             pm_estimate *found, double *lean);
+                             pm_estimate *found, double *unevenness);
 
 #endif

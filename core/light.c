@@ -97,6 +97,22 @@ bool pm_light_sample_from(const pm_scene *scene, const pm_light *light, pm_vec3 
     return false;
 }
 
+bool pm_light_blocked(const pm_intersector *world, const pm_hit *at, int medium,
+                      const pm_light_sample *sample)
+{
+    pm_ray ray = pm_hit_ray(at, sample->direction, 0.0, medium);
+    if (!sample->endless) {
+        // From the offset origin the light lies in a slightly other direction.
+        pm_vec3 way = pm_vec_sub(sample->target, ray.origin);
+        ray.t_max = pm_vec_length(way);
+        if (ray.t_max == 0.0) {
+            return false;
+        }
+        ray.direction = pm_vec_scale(way, 1.0 / ray.t_max);
+    }
+    return pm_blocked(world, &ray);
+}
+
 double pm_light_pdf(const pm_scene *scene, const pm_hit *hit, pm_vec3 from, pm_vec3 direction)
 {
     double leaving = -pm_vec_dot(direction, hit->normal);

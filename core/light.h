@@ -25,6 +25,11 @@ typedef struct {
 bool pm_light_sample_from(const pm_scene *scene, const pm_light *light, pm_vec3 from,
                           const double u[2], pm_light_sample *sample);
 
+/// Whether a surface other than null stands between `at` and the light drawn from there.
+/// @param medium  that the shadow ray starts in
+bool pm_light_blocked(const pm_intersector *world, const pm_hit *at, int medium,
+                      const pm_light_sample *sample);
+
 /// Density [1/sr] with which pm_light_sample_from() draws the point `hit` of an area light, as
 /// seen from `from` along the unit `direction`; 0 from behind.
 double pm_light_pdf(const pm_scene *scene, const pm_hit *hit, pm_vec3 from, pm_vec3 direction);

@@ -43,9 +43,6 @@ pm_look pm_look_by_lobe(const pm_lobes *lobes, pm_rng *rng)
 pm_look pm_look_by_cosine(const pm_lobes *lobes, const double u[2])
 {
     pm_frame frame = pm_frame_around(lobes->normal);
-    double radius = sqrt(u[0]);
-    double phi = 2.0 * PM_PI * u[1];
-    pm_vec3 local = pm_vec(radius * cos(phi), radius * sin(phi), sqrt(1.0 - u[0]));
-    pm_vec3 wo = pm_frame_to_world(&frame, local);
+    pm_vec3 wo = pm_frame_cosine(&frame, u);
     return (pm_look){wo, pm_spectrum_scale(pm_material_evaluate(lobes, wo), PM_PI)};
 }

@@ -1,8 +1,8 @@
 // One estimate a question; those in the global map are counted for the picture's channels.
 #include "lookup.h"
 
+#include "fill.h"
 #include "irradiance.h"
-#include "lean.h"
 
 #include <stddef.h>
 
@@ -24,7 +24,7 @@ static void count(pm_gather *gather, const pm_estimate *found)
 
 /// By an irradiance that was estimated before; `covered` says whether one is near enough.
 static pm_status look_up_place(const pm_gather *gather, const pm_vertex *at, bool *covered,
-                               pm_estimate *found, double *lean)
+                               pm_estimate *found, double *unevenness)
 {
     *covered = false;
     if (gather->irradiance == NULL || !pm_material_is_lambertian(&at->lobes)) {
@@ -32,7 +32,7 @@ static pm_status look_up_place(const pm_gather *gather, const pm_vertex *at, boo
     }
     pm_estimate_point point = {at->hit.position, at->lobes.normal};
     PM_TRY(pm_irradiance_find(gather->irradiance, &gather->settings.estimate,
-                              gather->irradiance_reach, &point, covered, found, lean));
+                              gather->irradiance_reach, &point, covered, found, unevenness));
     if (*covered) {
         pm_spectrum f = pm_material_evaluate(&at->lobes, at->lobes.normal);
         found->value = pm_spectrum_mul(found->value, f);
@@ -43,16 +43,16 @@ static pm_status look_up_place(const pm_gather *gather, const pm_vertex *at, boo
 pm_status pm_lookup_global(pm_gather *gather, const pm_vertex *at, pm_lookup *end)
 {
     bool covered;
-    double lean;
+    double unevenness;
     pm_estimate *found = &end->estimate;
-    PM_TRY(look_up_place(gather, at, &covered, found, &lean));
+    PM_TRY(look_up_place(gather, at, &covered, found, &unevenness));
     if (!covered) {
         const pm_photon_map *global = gather->map[PM_MAP_GLOBAL];
         pm_estimate_point point = {at->hit.position, at->lobes.normal};
         PM_TRY(look_up(gather, PM_MAP_GLOBAL, &gather->settings.estimate, at, found));
-        lean = pm_lean_of(global, gather->scratch, found, &point);
+        unevenness = pm_fill_unevenness(global, gather->scratch, found, &point);
     }
-    end->edge = pm_lean_is_edge(lean, found->found);
+    end->uneven = pm_fill_is_uneven(unevenness, found->found);
     count(gather, found);
     return PM_OK;
 }

@@ -8,7 +8,7 @@
 /// What the end of a gather ray finds.
 typedef struct {
     pm_estimate estimate; // its value is a radiance [W/(m^2 sr)]
-    bool edge;            // its disc hangs over an edge (lean.h)
+    bool uneven;          // its photons do not fill their disc (fill.h)
 } pm_lookup;
 
 /// Everything that leaves a vertex by its D lobes, as the end of a gather ray: all photons of

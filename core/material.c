@@ -135,12 +135,11 @@ void pm_material_lobes(const pm_scene *scene, const pm_hit *hit, pm_vec3 wi, dou
 
 static pm_vec3 cosine_direction(pm_vec3 normal, pm_rng *rng)
 {
-    double u = pm_rng_draw(rng);
-    double phi = 2.0 * PM_PI * pm_rng_draw(rng);
+    double u[2];
+    u[0] = pm_rng_draw(rng);
+    u[1] = pm_rng_draw(rng);
     pm_frame frame = pm_frame_around(normal);
-    double radius = sqrt(u);
-    return pm_frame_to_world(&frame,
-                             pm_vec(radius * cos(phi), radius * sin(phi), sqrt(1.0 - u)));
+    return pm_frame_cosine(&frame, u);
 }
 
 static pm_vec3 refracted(const pm_lobes *lobes)

@@ -16,8 +16,7 @@ static const pm_option table[] = {
      "photons emitted for each map that is traced", "200000"},
     {"photons", "photons", PM_OPTION_COUNT, AT(photons_total), 0, 1, MANY, "N",
      "photons emitted in all, split 2:2:1 among those of the global, caustic and volume map "
-     "that "
-     "the picture needs",
+     "that the picture needs",
      "none: the numbers of each map"},
     {"global-photons", "global-photons", PM_OPTION_COUNT, AT(photons[PM_MAP_GLOBAL]), 0, 0,
      MANY, "N", "photons emitted for the global map; 0: no such map", NULL},

@@ -26,6 +26,21 @@ static void add(pm_reference_sum *sum, pm_layer_events events, pm_spectrum weigh
     *layer = pm_spectrum_add(*layer, pm_spectrum_mul(weight, radiance));
 }
 
+/// A path from the eye came to a light through S events alone.
+static void note_emitter(const pm_eye_path *path, pm_reference_sum *sum)
+{
+    sum->emitter = sum->emitter || path->events.specular == path->events.count;
+}
+
+/// Light of what lies around the scene.
+static void see_sky(const pm_reference_eye *eye, const pm_eye_path *path, pm_reference_sum *sum)
+{
+    if (!pm_spectrum_is_black(eye->sky)) {
+        note_emitter(path, sum);
+        add(sum, path->events, path->weight, eye->sky);
+    }
+}
+
 /// Light of the surface itself.
 static void see(const pm_scene *scene, const pm_eye_path *path, const pm_meeting *at,
                 pm_reference_sum *sum)
@@ -34,7 +49,7 @@ static void see(const pm_scene *scene, const pm_eye_path *path, const pm_meeting
     if (scene->shapes[at->hit.shape].light == PM_NONE || !front) {
         return;
     }
-    sum->emitter = sum->emitter || path->events.specular == path->events.count;
+    note_emitter(path, sum);
     pm_spectrum radiance = pm_light_emitted(scene, &at->hit, at->lobes.wi);
     if (path->pdf > 0.0) {
         double drawn = pm_light_pdf(scene, &at->hit, path->from, path->ray.direction);
@@ -71,21 +86,6 @@ static void note_first(const pm_eye_path *path, const pm_meeting *at, pm_referen
     }
 }
 
-static bool shadowed(const pm_reference_eye *eye, const pm_meeting *at,
-                     const pm_light_sample *drawn)
-{
-    pm_ray ray = pm_hit_ray(&at->hit, drawn->direction, 0.0, at->lobes.medium_here);
-    if (!drawn->endless) {
-        pm_vec3 way = pm_vec_sub(drawn->target, ray.origin);
-        ray.t_max = pm_vec_length(way);
-        if (ray.t_max == 0.0) {
-            return false;
-        }
-        ray.direction = pm_vec_scale(way, 1.0 / ray.t_max);
-    }
-    return pm_blocked(eye->world, &ray);
-}
-
 /// f |cos| towards a drawn point, apart for D lobes and S lobes, each lobe by its own weight:
 /// the same path could have gone there by that lobe.
 static void respond(const pm_lobes *lobes, const pm_light_sample *drawn,
@@ -116,7 +116,7 @@ static void ask_light(const pm_reference_eye *eye, const pm_light *light,
     pm_spectrum response[2];
     respond(&at->lobes, &drawn, response);
     bool dark = pm_spectrum_is_black(response[0]) && pm_spectrum_is_black(response[1]);
-    if (dark || shadowed(eye, at, &drawn)) {
+    if (dark || pm_light_blocked(eye->world, &at->hit, at->lobes.medium_here, &drawn)) {
         return;
     }
     for (int specular = 0; specular < 2; specular++) {
@@ -185,7 +185,7 @@ pm_status pm_reference_path(const pm_reference_eye *eye, const pm_ray *ray, uint
     pm_meeting at;
     for (bool goes_on = true; goes_on;) {
         if (!meet(eye, &path, &at, sum)) {
-            add(sum, path.events, path.weight, eye->sky);
+            see_sky(eye, &path, sum);
             return PM_OK;
         }
         note_first(&path, &at, sum);

@@ -24,16 +24,6 @@ static json_t *estimate_settings(const pm_estimate_settings *estimate)
     return pm_report_add(object, "r", real_or_none(estimate->radius));
 }
 
-static json_t *photons_object(const pm_render_maps *maps)
-{
-    json_t *photons = json_object();
-    for (pm_map_kind kind = 0; kind < PM_MAP_COUNT; kind++) {
-        json_t *count = json_integer((json_int_t)maps->photons[kind]);
-        photons = pm_report_add(photons, pm_map_name(kind), count);
-    }
-    return photons;
-}
-
 /// Caps in force, null for none.
 static json_t *caps_object(const pm_scene *scene, uint32_t asked)
 {
@@ -76,7 +66,7 @@ static json_t *settings_object(const pm_scene *scene, const pm_render_settings *
     }
     json_decref(words);
     object = pm_report_add(object, "caps", caps_object(scene, settings->max_bounces));
-    object = pm_report_add(object, "photons", photons_object(maps));
+    object = pm_report_add(object, "photons", pm_report_photons(maps->photons));
     return pm_report_add(object, "estimate", estimate_settings(&settings->light.estimate));
 }
 

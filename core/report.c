@@ -101,6 +101,16 @@ json_t *pm_report_lights(const pm_scene *scene, const uint64_t *share)
     return array;
 }
 
+json_t *pm_report_photons(const uint64_t photons[PM_MAP_COUNT])
+{
+    json_t *object = json_object();
+    for (pm_map_kind kind = 0; kind < PM_MAP_COUNT; kind++) {
+        json_t *count = json_integer((json_int_t)photons[kind]);
+        object = pm_report_add(object, pm_map_name(kind), count);
+    }
+    return object;
+}
+
 json_t *pm_report_by_shape(const pm_scene *scene, const pm_audit *audit)
 {
     json_t *object = json_object();

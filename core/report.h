@@ -32,6 +32,9 @@ json_t *pm_report_projection(const pm_projections *projections, uint64_t emitted
 /// [{id, type, flux[3], photons}, ..]; `share` may be NULL.
 json_t *pm_report_lights(const pm_scene *scene, const uint64_t *share);
 
+/// {global: N, ..}: photons that each map is to be made of.
+json_t *pm_report_photons(const uint64_t photons[PM_MAP_COUNT]);
+
 /// {id: {incident[3], absorbed[3]}, ..} in W.
 json_t *pm_report_by_shape(const pm_scene *scene, const pm_audit *audit);
 

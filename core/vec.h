@@ -128,4 +128,14 @@ static inline pm_vec3 pm_frame_to_world(const pm_frame *frame, pm_vec3 local)
     return pm_vec_along(flat, frame->n, local.z);
 }
 
+/// A direction about `n` from a point of the unit square, with density cosine / pi [1/sr]: the
+/// square's unit disc, lifted onto the hemisphere.
+static inline pm_vec3 pm_frame_cosine(const pm_frame *frame, const double u[2])
+{
+    double radius = sqrt(u[0]);
+    double phi = 2.0 * PM_PI * u[1];
+    pm_vec3 local = pm_vec(radius * cos(phi), radius * sin(phi), sqrt(1.0 - u[0]));
+    return pm_frame_to_world(frame, local);
+}
+
 #endif
