@@ -195,6 +195,19 @@ static void emitters_are_marked_in_mirrors(void)
     pm_scenes_free(&s);
 }
 
+// A mirror shows the sky; the wall around it meets the sky after a D event only.
+static void sky_is_marked(void)
+{
+    pm_scenes s;
+    pm_scenes_begin(&s);
+    pm_scenes_sky(&s, pm_gray(1.0));
+    pm_scenes_wear(&s, upright(0.5, 1.0, false), pm_scenes_mirror(&s, pm_gray(0.9)));
+    pm_scenes_wear(&s, upright(9.0, 3.0, false), pm_scenes_diffuse(&s, pm_gray(0.9)));
+    look_ahead(&s);
+    check_mask(&s);
+    pm_scenes_free(&s);
+}
+
 static void threads_do_not_matter(void)
 {
     const int threads[3] = {1, 2, 7};
@@ -380,4 +393,6 @@ PM_TESTS({"reference_picture.1", "layers add up to R G B, and halves to twice th
          {"reference_picture.10", "a picture is called black, or too bright for a float",
           dark_pictures_are_called_black},
          {"reference_picture.11", "the program writes the picture and says what it did",
-          program_writes_picture_and_report})
+          program_writes_picture_and_report},
+         {"reference_picture.12", "the constant light is an emitter and marked as one",
+          sky_is_marked})
