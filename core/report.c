@@ -3,6 +3,7 @@
 
 #include "file.h"
 #include "light.h"
+#include "map_make.h"
 #include "map_power.h"
 #include "photon_map.h"
 

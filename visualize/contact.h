@@ -51,8 +51,7 @@ typedef struct {
 /// @param files   1 to PM_CONTACT_MOST paths, which must outlive the sheet
 /// @param sheet   [out] without places yet; untouched unless PM_OK
 /// @return PM_EIO or PM_EINPUT with a line a fault: no such file, no picture, no channels R G
-/// B,
-///         a NaN, another size than the first one's; PM_ENOMEM
+///         B, a NaN, another size than the first one's; PM_ENOMEM
 pm_status pm_contact_read(const char *const *files, int count, double exposure,
                           pm_contact *sheet);
 void pm_contact_free(pm_contact *sheet);
