@@ -99,8 +99,8 @@ static void check_pixels(const seen *s, size_t picture, double gain)
     CHECK(left >= 0 && top >= 0 && left + SIDE <= (int)s->png.width);
     CHECK(top + SIDE <= (int)s->png.height);
     for (int i = 0; i < SIDE * SIDE; i++) {
-        const double light[3] = {(float)(i % SIDE / (SIDE - 1.0)),
-                                 (float)((double)(i / SIDE) / (SIDE - 1.0)), 0.25};
+        const double light[3] = {(double)(float)(i % SIDE / (SIDE - 1.0)),
+                                 (double)(float)((double)(i / SIDE) / (SIDE - 1.0)), 0.25};
         int at = (top + i / SIDE) * (int)s->png.width + left + i % SIDE;
         for (int c = 0; c < 3; c++) {
             int got = s->pixels[3 * at + c];
