@@ -194,7 +194,8 @@ demo: ## install what is missing, build, render the Cornell box and picture its 
 gallery: all ## render every scene at two qualities, all on one sheet
 	@visualize/gallery.sh $(BIN)
 
-BENCHES := promises plan direct caustics precompute projection
+# quality takes an hour, so it runs when it is named.
+BENCHES := promises plan direct caustics precompute projection $(filter quality,$(ONLY))
 bench: all $(BENCH_PROGRAMS) $(BIN)/render-without-caustics ## measure against the promises (ONLY=plan for one)
 	@for b in $(filter $(ONLY)%,$(BENCHES)); do \
 	  echo "$$b:"; tests/bench/run $(BUILD) $(BIN) $$b || exit; done
