@@ -1,15 +1,11 @@
-// Chunks of CHUNK light paths are traced on any thread, and what they add to the film is added
-// in the order of the chunks, so the picture does not depend on how many threads there are.
+// Light paths are traced on any thread, and what they add to the film is added in their order,
+// so the picture does not depend on how many threads there are.
 #include "light_tracer.h"
 
 #include "camera.h"
-#include "interrupt.h"
-#include "progress.h"
+#include "chunks.h"
 
 #include <stdlib.h>
-#include <string.h>
-
-#define CHUNK 1024u
 
 /// What one connection to the camera adds.
 typedef struct {
@@ -19,7 +15,7 @@ typedef struct {
 
 /// What one thread works in.
 typedef struct {
-    pm_start starts[CHUNK];
+    pm_start starts[PM_CHUNK];
     pm_splat *splat;
     size_t count, room;
     uint64_t cut;
@@ -32,9 +28,6 @@ typedef struct {
     double per_film; // 1 over paths times the area of a pixel at distance 1
     pm_spectrum *film;
     uint64_t cut;
-    pm_progress progress;
-    pm_status status;
-    char message[1024];
 } pm_light_run;
 
 /// A light path on its way.
@@ -182,12 +175,27 @@ static pm_status follow(const pm_light_run *run, const pm_start *start, pm_splat
     return PM_OK;
 }
 
-static pm_status trace_chunk(const pm_light_run *run, uint64_t first, uint32_t count,
-                             pm_splatter *splatter)
+static pm_status splatter_begin(const void *context, void **worker)
 {
+    (void)context;
+    *worker = calloc(1, sizeof(pm_splatter));
+    return *worker != NULL ? PM_OK : PM_FAIL(PM_ENOMEM, "no memory for light paths");
+}
+
+static void splatter_end(void *worker)
+{
+    if (worker != NULL) {
+        free(((pm_splatter *)worker)->splat);
+        free(worker);
+    }
+}
+
+static pm_status trace_chunk(const void *context, void *worker, uint64_t first, uint32_t count)
+{
+    const pm_light_run *run = context;
+    pm_splatter *splatter = worker;
     splatter->count = 0;
     splatter->cut = 0;
-    PM_TRY(pm_interrupt_check());
     PM_TRY(pm_emit_photons(&run->emission, first, count, splatter->starts));
     for (uint32_t i = 0; i < count; i++) {
         PM_TRY(follow(run, &splatter->starts[i], splatter));
@@ -195,61 +203,33 @@ static pm_status trace_chunk(const pm_light_run *run, uint64_t first, uint32_t c
     return PM_OK;
 }
 
-/// Takes a chunk's part, one chunk at a time; after a failure nothing more is taken.
-static void settle(pm_light_run *run, pm_status status, const pm_splatter *splatter,
-                   uint32_t count)
+static pm_status take_chunk(void *context, const void *worker)
 {
-    if (run->status != PM_OK) {
-        return;
-    }
-    if (status != PM_OK) {
-        strncpy(run->message, pm_status_message(), sizeof run->message - 1);
-#pragma omp atomic write
-        run->status = status;
-        return;
-    }
+    pm_light_run *run = context;
+    const pm_splatter *splatter = worker;
     for (size_t i = 0; i < splatter->count; i++) {
         pm_spectrum *pixel = &run->film[splatter->splat[i].place];
         *pixel = pm_spectrum_add(*pixel, splatter->splat[i].radiance);
     }
     run->cut += splatter->cut;
-    pm_progress_add(&run->progress, count);
+    return PM_OK;
 }
 
-static void run_chunk(pm_light_run *run, uint64_t chunk, pm_splatter *splatter)
+static pm_status run_chunks(pm_light_run *run)
 {
-    uint64_t first = chunk * CHUNK;
-    uint64_t left = run->emission.count - first;
-    uint32_t count = left < CHUNK ? (uint32_t)left : CHUNK;
-    pm_status status;
-#pragma omp atomic read
-    status = run->status;
-    if (splatter == NULL) {
-        status = PM_FAIL(PM_ENOMEM, "no memory for light paths");
-    } else if (status == PM_OK) {
-        status = trace_chunk(run, first, count, splatter);
-    }
-#pragma omp ordered
-    settle(run, status, splatter, count);
-}
-
-static void run_chunks(pm_light_run *run)
-{
-    int64_t chunks = (int64_t)((run->emission.count + CHUNK - 1) / CHUNK);
-    run->progress = pm_progress_begin("light paths", run->emission.count);
-#pragma omp parallel
-    {
-        pm_status_clear();
-        pm_splatter *splatter = calloc(1, sizeof *splatter);
-#pragma omp for ordered schedule(dynamic, 1)
-        for (int64_t chunk = 0; chunk < chunks; chunk++) {
-            run_chunk(run, (uint64_t)chunk, splatter);
-        }
-        free(splatter != NULL ? splatter->splat : NULL);
-        free(splatter);
-        pm_status_clear(); // the run has kept the message
-    }
-    pm_progress_end(&run->progress);
+    pm_progress progress = pm_progress_begin("light paths", run->emission.count);
+    pm_chunks chunks = {
+        .count = run->emission.count,
+        .progress = &progress,
+        .context = run,
+        .begin = splatter_begin,
+        .work = trace_chunk,
+        .take = take_chunk,
+        .end = splatter_end,
+    };
+    pm_status status = pm_chunks_run(&chunks);
+    pm_progress_end(&progress);
+    return status;
 }
 
 /// Lights to be traced from, in a scene that holds no others. Shapes still name lights by their
@@ -282,8 +262,7 @@ static pm_status run_lights(pm_light_run *run, const pm_scene *scene, uint64_t *
     double area = 4.0 * camera->tan_x * camera->tan_y / camera->width / camera->height;
     run->emission = (pm_emission){scene, tracing->source, tracing->count, share, NULL};
     run->per_film = 1.0 / (area * (double)tracing->count);
-    run_chunks(run);
-    return run->status == PM_OK ? PM_OK : pm_status_fail(run->status, "%s", run->message);
+    return run_chunks(run);
 }
 
 pm_status pm_light_tracer_run(const pm_light_tracing *tracing, pm_spectrum *film, uint64_t *cut)

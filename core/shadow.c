@@ -1,21 +1,14 @@
-// Chunks of CHUNK photons are sent on any thread and appended in order, so the maps do not
-// depend on how many threads there are.
-//
 // Invariant: a map holds every meeting of its light's straight rays with a surface that has a D
 // lobe, on the side that the light comes from. So around any point that the light could reach
 // if nothing stood between, photons are as dense as its unshadowed irradiance asks for.
 #include "shadow.h"
 
+#include "chunks.h"
 #include "emit.h"
-#include "interrupt.h"
 #include "photon_map.h"
-#include "progress.h"
 #include "store.h"
 
 #include <stdlib.h>
-#include <string.h>
-
-#define CHUNK 1024u
 
 /// What all threads share while one light's map is filled.
 typedef struct {
@@ -23,14 +16,11 @@ typedef struct {
     pm_emission emission;
     pm_photon_map *map;
     pm_progress *progress;
-    bool failed;
-    pm_status status;
-    char message[1024];
 } shadow_pass;
 
 /// What one thread works in.
 typedef struct {
-    pm_start starts[CHUNK];
+    pm_start starts[PM_CHUNK];
     pm_photon_map part;
 } shadow_worker;
 
@@ -72,84 +62,54 @@ static pm_status send(const pm_intersector *world, const pm_start *start, pm_pho
 
 // --- one light ------------------------------------------------------------------------------
 
-static pm_status send_range(const shadow_pass *pass, shadow_worker *worker, uint64_t first,
-                            uint32_t count)
+static pm_status worker_begin(const void *context, void **worker)
 {
-    worker->part.count = 0;
-    worker->part.refused = worker->part.clamped = worker->part.vanished = 0;
-    PM_TRY(pm_emit_photons(&pass->emission, first, count, worker->starts));
+    (void)context;
+    *worker = calloc(1, sizeof(shadow_worker));
+    return *worker != NULL ? PM_OK : PM_FAIL(PM_ENOMEM, "no memory to send shadow photons in");
+}
+
+static void worker_end(void *worker)
+{
+    if (worker != NULL) {
+        pm_photon_map_free(&((shadow_worker *)worker)->part);
+        free(worker);
+    }
+}
+
+static pm_status send_chunk(const void *context, void *worker, uint64_t first, uint32_t count)
+{
+    const shadow_pass *pass = context;
+    shadow_worker *w = worker;
+    w->part.count = 0;
+    w->part.refused = w->part.clamped = w->part.vanished = 0;
+    PM_TRY(pm_emit_photons(&pass->emission, first, count, w->starts));
     for (uint32_t i = 0; i < count; i++) {
-        PM_TRY(send(pass->world, &worker->starts[i], &worker->part));
+        PM_TRY(send(pass->world, &w->starts[i], &w->part));
     }
     return PM_OK;
 }
 
-/// Only one thread at a time comes here, but all of them look at `failed`.
-static void fail(shadow_pass *pass, pm_status status)
+static pm_status take_chunk(void *context, const void *worker)
 {
-    pass->status = status;
-    strncpy(pass->message, pm_status_message(), sizeof pass->message - 1);
-#pragma omp atomic write
-    pass->failed = true;
-}
-
-static void send_chunk(shadow_pass *pass, shadow_worker *worker, uint64_t chunk)
-{
-    uint64_t first = chunk * CHUNK;
-    uint64_t left = pass->emission.count - first;
-    uint32_t count = left < CHUNK ? (uint32_t)left : CHUNK;
-    bool failed;
-#pragma omp atomic read
-    failed = pass->failed;
-    pm_status status = failed ? PM_OK : send_range(pass, worker, first, count);
-#pragma omp ordered
-    {
-        if (!pass->failed && status == PM_OK) {
-            status = pm_interrupted() ? pm_interrupt_check()
-                                      : pm_photon_map_append(pass->map, &worker->part);
-        }
-        if (!pass->failed && status != PM_OK) {
-            fail(pass, status);
-        }
-        pm_progress_add(pass->progress, count);
-    }
-    if (status != PM_OK) {
-        pm_status_clear(); // this thread's next pass tells its own
-    }
-}
-
-static void send_chunks(shadow_pass *pass)
-{
-    int64_t chunks = (int64_t)((pass->emission.count + CHUNK - 1) / CHUNK);
-#pragma omp parallel
-    {
-        shadow_worker *worker = calloc(1, sizeof *worker);
-        if (worker == NULL) {
-#pragma omp critical
-            fail(pass, PM_FAIL(PM_ENOMEM, "no memory to send shadow photons in"));
-        }
-#pragma omp for ordered schedule(dynamic, 1)
-        for (int64_t chunk = 0; chunk < chunks; chunk++) {
-            if (worker != NULL) {
-                send_chunk(pass, worker, (uint64_t)chunk);
-            }
-        }
-        if (worker != NULL) {
-            pm_photon_map_free(&worker->part);
-        }
-        free(worker);
-    }
+    const shadow_pass *pass = context;
+    return pm_photon_map_append(pass->map, &((const shadow_worker *)worker)->part);
 }
 
 /// Fills and balances the map of the one light that has a share. Its number is the pass, so
 /// that lights do not repeat each other's random numbers.
 static pm_status make_map(shadow_pass *pass)
 {
-    send_chunks(pass);
-    if (pass->status != PM_OK) {
-        pm_status_clear();
-        return pm_status_fail(pass->status, "%s", pass->message);
-    }
+    pm_chunks chunks = {
+        .count = pass->emission.count,
+        .progress = pass->progress,
+        .context = pass,
+        .begin = worker_begin,
+        .work = send_chunk,
+        .take = take_chunk,
+        .end = worker_end,
+    };
+    PM_TRY(pm_chunks_run(&chunks));
     pm_photon_map_trim(pass->map);
     PM_TRY(pm_store_scale(pass->map, pass->emission.count));
     return pm_balance_build(pass->map);
