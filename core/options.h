@@ -91,8 +91,6 @@ typedef struct {
 } pm_options;
 
 // Groups of keys that several programs take.
-#define PM_OPTIONS_PHOTONS                                                                     \
-    "n global-photons caustic-photons volume-photons roulette max-bounces packing"
 #define PM_OPTIONS_COMMON "seed threads json D help" // taken by all
 #define PM_OPTIONS_ESTIMATE "k r shape filter kernel-constants flatness"
 

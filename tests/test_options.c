@@ -312,8 +312,7 @@ static void keys_are_unique_and_groups_exist(void)
                    pm_option_at(i)->key);
     }
     char groups[512];
-    snprintf(groups, sizeof groups, "%s %s %s", PM_OPTIONS_PHOTONS, PM_OPTIONS_ESTIMATE,
-             PM_OPTIONS_COMMON);
+    snprintf(groups, sizeof groups, "%s %s", PM_OPTIONS_ESTIMATE, PM_OPTIONS_COMMON);
     for (char *key = strtok(groups, " "); key != NULL; key = strtok(NULL, " ")) {
         CHECK_THAT(pm_option_find(key) != NULL, "no option has the key %s", key);
     }

@@ -23,8 +23,7 @@ static const pm_options_program program = {
     .positional_least = 1,
     .positional_most = 1,
     .options = "n global-photons caustic-photons projection roulette max-bounces packing o "
-               "dump check-file "
-               "report",
+               "dump check-file report",
     .notes = "-o FILE.ply writes the global map; a caustic map, where the scene has caustics,\n"
              "goes beside it as FILE.caustic.ply. Their x y z are the scene's less the centre\n"
              "that a comment in their header names; --dump writes the scene's own.\n"

@@ -24,8 +24,7 @@ static const pm_options_program program = {
     .positional_least = 1,
     .positional_most = 1,
     .options = "n k r shape flatness at normal points on grid runs projection roulette "
-               "max-bounces packing "
-               "report",
+               "max-bounces packing report",
     .notes = "Give one of --at with --normal, --points, and --on with --grid. mean and rms go\n"
              "over all points and runs; rms is that of the deviation from the mean. -lecture\n"
              "is the 0.918 of the Gaussian, and k photons in place of k - 1.",
