@@ -2,9 +2,10 @@
 // between.
 //
 // Points on lights are drawn for every lobe. A glossy lobe draws directions as well, as many as
-// there are points on a lamp, and shares each lamp with those by the balance heuristic; wide
-// lobes leave lamps to the points. The constant light is found by drawn directions alone: those
-// of glossy lobes, and one even spread for all wide ones.
+// there are points on a lamp, and shares each lamp with those by the balance heuristic. Wide
+// lobes leave lamps to the points, but for those so near that a few points of them outshine the
+// rest: these they share with one even spread of directions. The constant light is found by
+// drawn directions alone.
 #include "direct.h"
 
 #include "lattice.h"
@@ -20,16 +21,26 @@ typedef struct {
     bool specular;
 } receiver;
 
-static bool draws_for_lamps(const pm_lobe *lobe)
+/// Within how many times its extent, from its middle, a lamp is near. At this distance its
+/// brightest point is about 9 times as bright as its farthest.
+#define NEAR 2.0
+
+static bool is_glossy(const pm_lobe *lobe)
 {
     return lobe->type == PM_LOBE_GLOSSY;
+}
+
+static bool is_near(const pm_light *light, pm_vec3 point)
+{
+    double distance = pm_vec_length(pm_vec_sub(light->position, point));
+    return light->type == PM_LIGHT_AREA && distance < NEAR * light->extent;
 }
 
 // --- points drawn on lights -----------------------------------------------------------------
 
 /// f * cos towards a sample of a light, of each lobe the share that this sample has; 0 where
-/// the surface does not look.
-static pm_spectrum response(const receiver *to, const pm_light_sample *sample)
+/// the surface does not look. Wide lobes share it only when it is `near`.
+static pm_spectrum response(const receiver *to, const pm_light_sample *sample, bool near)
 {
     pm_spectrum sum = pm_gray(0.0);
     for (int i = 0; i < to->lobes->count; i++) {
@@ -38,7 +49,7 @@ static pm_spectrum response(const receiver *to, const pm_light_sample *sample)
             continue;
         }
         pm_spectrum value = pm_material_value(to->lobes, i, sample->direction);
-        if (draws_for_lamps(lobe) && sample->pdf > 0.0) {
+        if ((is_glossy(lobe) || near) && sample->pdf > 0.0) {
             double other = pm_material_pdf(to->lobes, i, sample->direction);
             value = pm_spectrum_scale(value, pm_direct_weight(sample->pdf, other));
         }
@@ -81,11 +92,13 @@ static pm_spectrum from_light(pm_direct_query *query, int light, const double u[
                               const receiver *to, advice *known)
 {
     const pm_scene *scene = query->world->scene;
+    pm_vec3 here = to->hit->position;
     pm_light_sample sample;
-    if (!pm_light_sample_from(scene, &scene->lights[light], to->hit->position, u, &sample)) {
+    if (!pm_light_sample_from(scene, &scene->lights[light], here, u, &sample)) {
         return pm_gray(0.0);
     }
-    pm_spectrum arriving = pm_spectrum_mul(response(to, &sample), sample.radiance);
+    pm_spectrum f = response(to, &sample, is_near(&scene->lights[light], here));
+    pm_spectrum arriving = pm_spectrum_mul(f, sample.radiance);
     if (pm_spectrum_is_black(arriving)) {
         return arriving;
     }
@@ -122,23 +135,41 @@ static pm_spectrum from_lights(pm_direct_query *query, const receiver *to)
 
 // --- directions drawn by lobes --------------------------------------------------------------
 
-/// What comes along a direction that a lobe drew with density `pdf`: of each lamp on the way
-/// its share, and the sky in full. Lamps of null surface shine and let pass.
-static pm_spectrum look_along(pm_direct_query *query, const receiver *to, pm_vec3 direction,
-                              double pdf)
+/// A direction, drawn by one glossy lobe or, by the cosine, for all wide ones.
+typedef struct {
+    pm_vec3 direction;
+    double pdf; // [1/sr]
+    bool wide;
+} drawn;
+
+/// The share that a drawn direction has of the lamp that it met, if any.
+static pm_spectrum meet_lamp(const pm_scene *scene, const receiver *to, const pm_hit *met,
+                             const drawn *way)
+{
+    pm_vec3 here = to->hit->position;
+    double other = pm_light_pdf(scene, met, here, way->direction);
+    if (other == 0.0) {
+        return pm_gray(0.0);
+    }
+    if (way->wide && !is_near(&scene->lights[scene->shapes[met->shape].light], here)) {
+        return pm_gray(0.0);
+    }
+    pm_spectrum lamp = pm_light_emitted(scene, met, pm_vec_negate(way->direction));
+    return pm_spectrum_scale(lamp, pm_direct_weight(way->pdf, other));
+}
+
+/// What comes along a drawn direction: of each lamp on the way its share, and the sky in full.
+/// Lamps of null surface shine and let pass.
+static pm_spectrum look_along(pm_direct_query *query, const receiver *to, const drawn *way)
 {
     const pm_scene *scene = query->world->scene;
+    pm_vec3 direction = way->direction;
     pm_ray ray = pm_hit_ray(to->hit, direction, 0.0, to->lobes->medium_here);
     pm_spectrum sum = pm_gray(0.0);
     pm_hit met;
     query->rays++;
     while (pm_closest(query->world, &ray, &met)) {
-        double other = pm_light_pdf(scene, &met, to->hit->position, direction);
-        if (other > 0.0) {
-            pm_spectrum lamp = pm_light_emitted(scene, &met, pm_vec_negate(direction));
-            double weight = pm_direct_weight(pdf, other);
-            sum = pm_spectrum_add(sum, pm_spectrum_scale(lamp, weight));
-        }
+        sum = pm_spectrum_add(sum, meet_lamp(scene, to, &met, way));
         if (!pm_shape_is_null(scene, &scene->shapes[met.shape])) {
             return sum;
         }
@@ -157,7 +188,8 @@ static pm_spectrum from_lobe(pm_direct_query *query, const receiver *to, int whi
         pm_material_sample(to->lobes, which, &query->rng, &scatter);
         pm_spectrum weight = pm_spectrum_mul(albedo, scatter.weight);
         if (!pm_spectrum_is_black(weight)) {
-            pm_spectrum seen = look_along(query, to, scatter.wo, scatter.pdf);
+            drawn way = {scatter.wo, scatter.pdf, false};
+            pm_spectrum seen = look_along(query, to, &way);
             sum = pm_spectrum_add(sum, pm_spectrum_mul(weight, seen));
         }
     }
@@ -169,28 +201,53 @@ static pm_spectrum wide_response(const pm_lobes *lobes, pm_vec3 direction)
 {
     pm_spectrum sum = pm_gray(0.0);
     for (int i = 0; i < lobes->count; i++) {
-        if (!lobes->lobe[i].specular && !draws_for_lamps(&lobes->lobe[i])) {
+        if (!lobes->lobe[i].specular && !is_glossy(&lobes->lobe[i])) {
             sum = pm_spectrum_add(sum, pm_material_value(lobes, i, direction));
         }
     }
     return pm_spectrum_scale(sum, PM_PI);
 }
 
-/// The constant light `sky` on all wide D lobes together, by an even spread of directions.
-static pm_spectrum sky_on_wide(pm_direct_query *query, const receiver *to, pm_spectrum sky)
+/// Sky and near lamps along one direction.
+static pm_spectrum look_wide(pm_direct_query *query, const receiver *to, pm_vec3 direction,
+                             bool near)
+{
+    if (near) {
+        drawn way = {direction, pm_vec_dot(direction, to->lobes->normal) / PM_PI, true};
+        return look_along(query, to, &way);
+    }
+    pm_light_sample sky = {.direction = direction, .endless = true};
+    bool dark = shadowed(query, to, &sky);
+    return dark ? pm_gray(0.0) : pm_light_sky(query->world->scene);
+}
+
+/// Sky and, where one is `near`, lamps on all wide D lobes together, by an even spread of
+/// directions.
+static pm_spectrum from_wide(pm_direct_query *query, const receiver *to, bool near)
 {
     pm_frame frame = pm_frame_around(to->lobes->normal);
     pm_spectrum sum = pm_gray(0.0);
     for (uint32_t s = 0; s < query->samples; s++) {
         double u[2];
         lattice_point(query, s, query->samples, u);
-        pm_light_sample sample = {.direction = pm_frame_cosine(&frame, u), .endless = true};
-        pm_spectrum f = wide_response(to->lobes, sample.direction);
-        if (!pm_spectrum_is_black(f) && !shadowed(query, to, &sample)) {
-            sum = pm_spectrum_add(sum, pm_spectrum_mul(f, sky));
+        pm_vec3 direction = pm_frame_cosine(&frame, u);
+        pm_spectrum f = wide_response(to->lobes, direction);
+        if (!pm_spectrum_is_black(f)) {
+            pm_spectrum seen = look_wide(query, to, direction, near);
+            sum = pm_spectrum_add(sum, pm_spectrum_mul(f, seen));
         }
     }
     return pm_spectrum_scale(sum, 1.0 / query->samples);
+}
+
+static bool has_near_lamp(const pm_scene *scene, pm_vec3 here)
+{
+    for (int i = 0; i < scene->light_count; i++) {
+        if (is_near(&scene->lights[i], here)) {
+            return true;
+        }
+    }
+    return false;
 }
 
 static bool has_lamp(const pm_scene *scene)
@@ -208,16 +265,16 @@ static pm_spectrum from_lobes(pm_direct_query *query, const receiver *to)
 {
     pm_spectrum sum = pm_gray(0.0);
     const pm_scene *scene = query->world->scene;
-    pm_spectrum sky = pm_light_sky(scene);
-    bool dark = pm_spectrum_is_black(sky);
-    if (!dark) {
-        sum = sky_on_wide(query, to, sky);
+    bool dark = pm_spectrum_is_black(pm_light_sky(scene));
+    bool near = has_near_lamp(scene, to->hit->position);
+    if (!dark || near) {
+        sum = from_wide(query, to, near);
     }
     if (pm_material_is_lambertian(to->lobes) || (dark && !has_lamp(scene))) {
         return sum;
     }
     for (int i = 0; i < to->lobes->count; i++) {
-        if (!to->lobes->lobe[i].specular && draws_for_lamps(&to->lobes->lobe[i])) {
+        if (!to->lobes->lobe[i].specular && is_glossy(&to->lobes->lobe[i])) {
             sum = pm_spectrum_add(sum, from_lobe(query, to, i));
         }
     }
@@ -235,7 +292,7 @@ pm_spectrum pm_direct_glint(pm_direct_query *query, const pm_hit *hit, const pm_
 {
     receiver to = {hit, lobes, true};
     for (int i = 0; i < lobes->count; i++) {
-        if (lobes->lobe[i].specular && draws_for_lamps(&lobes->lobe[i])) {
+        if (lobes->lobe[i].specular && is_glossy(&lobes->lobe[i])) {
             return from_lights(query, &to);
         }
     }

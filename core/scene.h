@@ -104,7 +104,8 @@ typedef struct {
     int line;
     int shape;           // area: index of its shape; else PM_NONE
     int medium;          // that it stands in, or PM_NONE
-    pm_vec3 position;    // point, spot
+    pm_vec3 position;    // point, spot; area: the middle of its shape
+    double extent;       // [m] area: no point of it is farther from the middle; 0: not known
     pm_vec3 direction;   // directional, spot: unit, the way the light travels (on the axis)
     double beam, cutoff; // spot [rad]: half angles, 0 <= beam < cutoff < pi; between them the
                          // intensity falls to 0 linearly in the angle

@@ -146,15 +146,27 @@ static pm_spectrum flux_of(const pm_scene *scene, const pm_light *light)
     return pm_gray(0.0);
 }
 
+/// The middle of an area light and how far it reaches from there.
+static void find_extent(const pm_scene *scene, pm_light *light)
+{
+    if (light->type == PM_LIGHT_AREA) {
+        bounds b = bounds_of(&scene->shapes[light->shape]);
+        light->position = pm_vec_scale(pm_vec_add(b.low, b.high), 0.5);
+        light->extent = 0.5 * pm_vec_length(pm_vec_sub(b.high, b.low));
+    }
+}
+
 static void find_flux(pm_scene_file *source)
 {
     pm_scene *scene = &source->scene;
     for (int i = 0; i < scene->light_count; i++) {
         pm_light *light = &scene->lights[i];
         light->flux = flux_of(scene, light);
-        if (!pm_spectrum_is_finite(light->flux)) {
+        // The books of power hold squares.
+        if (!pm_spectrum_is_finite(pm_spectrum_mul(light->flux, light->flux))) {
             pm_faults_add(&source->faults, scene->path, 0,
-                          "the power of light \"%.60s\" is too large for a double", light->id);
+                          "the power of light \"%.60s\" squared is too large for a double",
+                          light->id);
         }
     }
 }
@@ -172,6 +184,7 @@ void pm_scene_center(pm_scene_file *source)
             pm_vec3 by = pm_vec_sub(source->light_origin[i], scene->center);
             light->position = pm_vec_add(light->position, by);
         }
+        find_extent(scene, light);
     }
     scene->camera.position = pm_vec_sub(source->camera_origin, scene->center);
     measure(scene);

@@ -345,6 +345,34 @@ static void sphere_lamp(void)
     pm_scenes_free(&s);
 }
 
+/// Points drawn on a lamp that nearly touches the floor outshine each other; shared with
+/// directions drawn by the floor they do not.
+static void near_lamp_is_shared(void)
+{
+    pm_scenes s;
+    begin_floor(&s);
+    add_lamp(&s, 1.0, 0.02);
+    pm_scenes_ready(&s);
+    pm_light *lamp = &s.lights[0];
+    double want = PM_PI * 17.0 * square_factor(1.0, 0.02);
+    double alone;
+    double shared;
+    CHECK(lamp->extent == 0.0); // scenes made by hand do not know it
+    sampled(&s, pm_vec(0.0, 0.0, 0.01), 16, 400, &alone);
+    lamp->position = pm_vec(0.0, 0.0, 0.02);
+    lamp->extent = sqrt(0.5);
+    double mean = sampled(&s, pm_vec(0.0, 0.0, 0.01), 16, 400, &shared);
+    CHECK_NEAR(mean, want, 5.0 * sqrt(shared));
+    CHECK(25.0 * shared < alone);
+    // Beside it, where the lamp is near, but few directions meet it.
+    double e;
+    mean = sampled(&s, pm_vec(0.8, 0.0, 0.01), 16, 2000, &e);
+    lamp->extent = 0.0;
+    CHECK_NEAR(mean, irradiance(&s, pm_vec(0.8, 0.0, 0.01), 1000000, no_shift).c[1],
+               5.0 * sqrt(e));
+    pm_scenes_free(&s);
+}
+
 PM_TESTS({"direct.1", "a square lamp lights the floor below as its closed form says",
           square_over_a_floor},
          {"direct.2", "a lamp about to touch the floor gives pi L", lamp_of_the_cornell_box},
@@ -363,4 +391,6 @@ PM_TESTS({"direct.1", "a square lamp lights the floor below as its closed form s
          {"direct.11", "a lamp is dark from behind", back_of_a_lamp_is_dark},
          {"direct.12", "a surface lit from behind, or without a diffuse lobe, is dark",
           lit_from_behind_is_dark},
-         {"direct.13", "a sphere lamp gives pi L (R / d)^2", sphere_lamp})
+         {"direct.13", "a sphere lamp gives pi L (R / d)^2", sphere_lamp},
+         {"direct.14", "a lamp that nearly touches is shared with drawn directions",
+          near_lamp_is_shared})
