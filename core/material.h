@@ -83,7 +83,6 @@ typedef struct {
     bool reflecting; // some channel of a D lobe is above 0
     bool specular;   // has an S lobe that is not black
     bool delta;      // one of these is a smooth one: only by chance would a light be met there
-    bool transmits;  // light goes through, null ones too
     double albedo;   // with a D lobe: of diffuse light, all its lobes together carry on no more
                      // than this in any channel
 } pm_material_traits;

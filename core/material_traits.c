@@ -47,7 +47,7 @@ static pm_material_traits traits_of_glass(const pm_material *material)
 {
     bool dark = pm_spectrum_is_black(material->specular_reflectance) &&
                 pm_spectrum_is_black(material->specular_transmittance);
-    return (pm_material_traits){.specular = !dark, .delta = !dark, .transmits = true};
+    return (pm_material_traits){.specular = !dark, .delta = !dark};
 }
 
 pm_material_traits pm_material_traits_of(const pm_material *material)
@@ -67,7 +67,7 @@ pm_material_traits pm_material_traits_of(const pm_material *material)
     case PM_BSDF_THIN_DIELECTRIC:
         return traits_of_glass(material);
     case PM_BSDF_NULL:
-        return (pm_material_traits){.transmits = true};
+        break;
     }
     return (pm_material_traits){0};
 }

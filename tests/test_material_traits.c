@@ -101,7 +101,7 @@ static void check_narrow(pm_scenes *s, int which, bool narrow)
     pm_lobes lobes = pm_scenes_lobes(s, pm_scenes_slant(0.5));
     CHECK(pm_scenes_lobe(&lobes, PM_LOBE_GLOSSY)->specular == narrow);
     pm_material_traits traits = pm_material_traits_of(&s->materials[which]);
-    CHECK(traits.specular == narrow && !traits.delta && !traits.transmits);
+    CHECK(traits.specular == narrow && !traits.delta);
     CHECK(traits.diffuse == lobes.diffuse);
     CHECK(!pm_material_is_lambertian(&lobes) || !lobes.diffuse);
     // Only D lobes are evaluated.
@@ -157,13 +157,13 @@ static void white_furnace(void)
 }
 
 static void check_traits(const pm_material *material, bool diffuse, bool reflecting,
-                         bool specular, bool delta, bool transmits)
+                         bool specular, bool delta)
 {
     pm_material_traits t = pm_material_traits_of(material);
     CHECK_THAT(t.diffuse == diffuse && t.reflecting == reflecting && t.specular == specular &&
-                   t.delta == delta && t.transmits == transmits,
-               "%s %g: %d %d %d %d %d", material->id, material->alpha, t.diffuse, t.reflecting,
-               t.specular, t.delta, t.transmits);
+                   t.delta == delta,
+               "%s %g: %d %d %d %d", material->id, material->alpha, t.diffuse, t.reflecting,
+               t.specular, t.delta);
 }
 
 static void traits(void)
@@ -171,21 +171,21 @@ static void traits(void)
     pm_scenes s;
     begin(&s, 0.2);
     pm_material *m = s.materials;
-    check_traits(&m[0], true, true, false, false, false);
-    check_traits(&m[1], true, true, true, true, false);
-    check_traits(&m[2], true, true, false, false, false);
-    check_traits(&m[7], true, true, false, false, false);
+    check_traits(&m[0], true, true, false, false);
+    check_traits(&m[1], true, true, true, true);
+    check_traits(&m[2], true, true, false, false);
+    check_traits(&m[7], true, true, false, false);
     m[0].reflectance = m[1].reflectance = m[5].reflectance = pm_gray(0.0);
-    check_traits(&m[0], true, false, false, false, false);
-    check_traits(&m[1], true, false, true, true, false);
-    check_traits(&m[5], true, true, false, false, false);
+    check_traits(&m[0], true, false, false, false);
+    check_traits(&m[1], true, false, true, true);
+    check_traits(&m[5], true, true, false, false);
     m[1].specular_reflectance = m[2].specular_reflectance = pm_gray(0.0);
-    check_traits(&m[1], true, false, false, false, false);
-    check_traits(&m[2], true, false, false, false, false);
-    check_traits(&m[pm_scenes_null(&s)], false, false, false, false, true);
-    check_traits(&m[pm_scenes_pane(&s, 1.5)], false, false, true, true, true);
-    check_traits(&m[pm_scenes_glass(&s, 1.5)], false, false, true, true, true);
-    check_traits(&m[pm_scenes_mirror(&s, pm_gray(0.5))], false, false, true, true, false);
+    check_traits(&m[1], true, false, false, false);
+    check_traits(&m[2], true, false, false, false);
+    check_traits(&m[pm_scenes_null(&s)], false, false, false, false);
+    check_traits(&m[pm_scenes_pane(&s, 1.5)], false, false, true, true);
+    check_traits(&m[pm_scenes_glass(&s, 1.5)], false, false, true, true);
+    check_traits(&m[pm_scenes_mirror(&s, pm_gray(0.5))], false, false, true, true);
     pm_scenes_free(&s);
 }
 
