@@ -180,5 +180,6 @@ double pm_coat_gain(const pm_material *material)
 {
     double n = material->int_ior / material->ext_ior;
     double out = material->coat_mean / square(n);
-    return out > 0.0 ? out / (1.0 - material->coat_inside) : 0.0;
+    double kept = 1.0 - material->coat_inside; // not below `out`, but for rounding at a high n
+    return kept > out ? out / kept : 1.0;
 }

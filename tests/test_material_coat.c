@@ -150,6 +150,25 @@ static void no_coat_is_lambert(void)
     }
 }
 
+/// However high the index: nothing divides by what no digit holds.
+static void gain_is_a_share(void)
+{
+    for (int i = 0; i < 2; i++) {
+        for (int power = -200; power <= 200; power++) {
+            pm_material material = {
+                .type = i == 0 ? PM_BSDF_PLASTIC : PM_BSDF_ROUGH_PLASTIC,
+                .int_ior = pow(10.0, 0.5 * power),
+                .ext_ior = 1.0,
+                .microfacet = PM_MICROFACET_GGX,
+                .alpha = 0.3,
+            };
+            pm_material_prepare(&material);
+            double gain = pm_coat_gain(&material);
+            CHECK_THAT(gain >= 0.0 && gain <= 1.0, "index %g: gain %g", material.int_ior, gain);
+        }
+    }
+}
+
 static void rough_tends_to_smooth(void)
 {
     for (int kind = 0; kind < 2; kind++) {
@@ -208,4 +227,5 @@ PM_TESTS({"material.30", "smooth plastic is Fresnel over a ground, as worked out
          {"material.34", "the smoothest rough coat lets through what a smooth one does",
           rough_tends_to_smooth},
          {"material.35", "what a rough coat lets through is the mean over drawn facets",
-          rough_tables_by_drawing})
+          rough_tables_by_drawing},
+         {"material.39", "a plastic's gain is a share at any index", gain_is_a_share})
