@@ -92,7 +92,9 @@ static void tell_cap(pm_talk *talk)
     }
     char option[32];
     snprintf(option, sizeof option, "--max-bounces %u", most);
-    say(talk, option, "paths of more than %u events are left out; their power counts as lost",
+    say(talk, option,
+        "photons, and eye paths in mirrors and glass, end after %u events: paths with longer "
+        "parts are left out; the power of cut photons counts as lost",
         most)
         ->missing = true;
 }

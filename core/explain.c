@@ -21,9 +21,13 @@ static void print_below(const char *line, FILE *stream)
 }
 
 /// Which map serves a part, with how many photons.
-static void describe_map(const pm_render_maps *maps, pm_map_kind kind, char *text, size_t room)
+static void describe_map(const pm_render_settings *settings, const pm_render_maps *maps,
+                         pm_map_kind kind, char *text, size_t room)
 {
-    if (maps->photons[kind] > 0) {
+    if (maps->photons[kind] > 0 && settings->stored > 0) {
+        snprintf(text, room, "%s map, until %llu photons are stored", pm_map_name(kind),
+                 (unsigned long long)settings->stored);
+    } else if (maps->photons[kind] > 0) {
         snprintf(text, room, "%s map, %llu photons", pm_map_name(kind),
                  (unsigned long long)maps->photons[kind]);
     } else {
@@ -32,23 +36,32 @@ static void describe_map(const pm_render_maps *maps, pm_map_kind kind, char *tex
     }
 }
 
+/// Rays of a pixel: each of its samples shoots as many, and at least one.
+static uint32_t rays_shot(uint32_t asked, uint32_t spp)
+{
+    return (asked + spp - 1) / spp * spp;
+}
+
 static void describe_cost(const pm_render_settings *settings, const pm_render_maps *maps,
                           pm_plan_part part, char *text, size_t room)
 {
     const pm_gather_settings *light = &settings->light;
     bool own = !light->caustics_global;
     char map[64];
-    describe_map(maps, part == PM_PLAN_CAUSTIC && own ? PM_MAP_CAUSTIC : PM_MAP_GLOBAL, map,
+    describe_map(settings, maps,
+                 part == PM_PLAN_CAUSTIC && own ? PM_MAP_CAUSTIC : PM_MAP_GLOBAL, map,
                  sizeof map);
     if (part == PM_PLAN_DIRECT) {
-        snprintf(text, room, "%u shadow rays a pixel to each area light, %u to others; no map",
-                 light->light_samples, light->spp);
+        snprintf(text, room,
+                 "%u shadow rays a pixel to each area light and the sky, %u to others; no map",
+                 rays_shot(light->light_samples, light->spp), light->spp);
     } else if (part == PM_PLAN_SPECULAR) {
         snprintf(text, room, "eye rays go on through mirrors and glass; no map");
     } else if (part == PM_PLAN_CAUSTIC) {
         snprintf(text, room, "%s", map);
     } else if (light->rays > 0) {
-        snprintf(text, room, "%s, and %u gather rays a pixel", map, light->rays);
+        snprintf(text, room, "%s, and %u gather rays a pixel", map,
+                 rays_shot(light->rays, light->spp));
     } else {
         snprintf(text, room, "%s, seen directly", map);
     }

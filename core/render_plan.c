@@ -2,6 +2,9 @@
 // aimed where.
 #include "render.h"
 
+#include <stdio.h>
+#include <string.h>
+
 bool pm_render_shows(const pm_render_settings *settings, pm_layer layer)
 {
     int only = settings->only;
@@ -47,7 +50,7 @@ static void name_what_is_missing(pm_plan *plan, const pm_render_settings *settin
     }
     if (plan->item[PM_PLAN_CAUSTIC].needed && settings->light.caustics_global) {
         pm_plan_miss(plan, PM_PLAN_CAUSTIC,
-                     "no global map by choice, and none of their own: paths LS+D are missing");
+                     "no global map by choice, and --caustics global: paths LS+D are missing");
     }
 }
 
@@ -84,6 +87,12 @@ static pm_status aim(const pm_scene *scene, const pm_render_settings *settings,
         }
     }
     pm_plan_aim(&maps->plan, aims);
+    pm_plan_item *item = &maps->plan.item[PM_PLAN_PROJECTION];
+    if (settings->everywhere && item->needed) {
+        char worth[sizeof item->why];
+        memcpy(worth, item->why, sizeof worth);
+        snprintf(item->why, sizeof item->why, "off by choice; on, %.360s", worth);
+    }
     for (pm_map_kind kind = 0; kind < PM_MAP_COUNT && settings->everywhere; kind++) {
         pm_projection_free(&maps->aim[kind]);
     }

@@ -99,7 +99,8 @@ static const said with_ball[] = {
     {precompute, "--precompute on", "every 4th photon", false, false},
     {precompute_for_nothing, "--precompute on", "no gather ray looks", false, true},
     {everywhere, "--projection off", "no path is left out", false, false},
-    {few_bounces, "--max-bounces 3", "paths of more than 3 events are left out", true, false},
+    {few_bounces, "--max-bounces 3", "end after 3 events: paths with longer parts", true,
+     false},
     {dots, "--view photons", "dots", false, false},
 };
 
@@ -224,7 +225,8 @@ static void the_page_says_needs_costs_and_what_is_left_out(void)
     }
     flatten(text);
     CHECK_CONTAINS(text, "direct yes ");
-    CHECK_CONTAINS(text, "paths LD: 16 shadow rays a pixel to each area light, 4 to others");
+    CHECK_CONTAINS(
+        text, "paths LD: 16 shadow rays a pixel to each area light and the sky, 4 to others");
     CHECK_CONTAINS(text, "paths LS+D: caustic map, not traced");
     CHECK_CONTAINS(text, "global map, 200000 photons, and 64 gather rays a pixel");
     CHECK_CONTAINS(text, "volume no no medium");
@@ -242,6 +244,16 @@ static void the_page_says_needs_costs_and_what_is_left_out(void)
     CHECK_CONTAINS(text, "paths LS+D: global map, 1234 photons");
     CHECK_CONTAINS(text, "global map, 1234 photons, seen directly");
     CHECK_CONTAINS(text, "--photons 1234: split among the maps that are traced");
+    free(text);
+    settings = pm_render_defaults();
+    settings.stored = 500;
+    settings.light.spp = 32;
+    settings.everywhere = true;
+    text = explain(&s, &settings);
+    flatten(text);
+    CHECK_CONTAINS(text, "paths LS+D: caustic map, until 500 photons are stored");
+    CHECK_CONTAINS(text, "projection yes off by choice; on, ");
+    CHECK_CONTAINS(text, "32 shadow rays a pixel to each area light and the sky, 32 to others");
     free(text);
     pm_scenes_free(&s);
 }
