@@ -21,10 +21,16 @@ static double read_ior(pm_scene_file *source, const pm_xml *bsdf, const char *na
                        double otherwise)
 {
     const char *material = pm_scene_value_text(bsdf, name, NULL);
-    if (material == NULL) {
-        return pm_scene_value_positive(source, bsdf, name, otherwise);
-    }
     double index = otherwise;
+    if (material == NULL) {
+        index = pm_scene_value_positive(source, bsdf, name, otherwise);
+        // Beyond, a square of a ratio of two has no value.
+        if (index < 1e-50 || index > 1e50) {
+            PM_FAULT(source, pm_scene_value_find(bsdf, name),
+                     "%s must lie in [1e-50, 1e50], got %g", name, index);
+        }
+        return index;
+    }
     const char *nearest;
     if (!pm_ior_find(material, &index, &nearest)) {
         PM_FAULT(source, pm_scene_value_find(bsdf, name),
@@ -51,6 +57,9 @@ static void read_metal(pm_scene_file *source, const pm_xml *bsdf, pm_material *m
     material->perfect_mirror = !eta;
     material->eta = pm_scene_value_amount(source, bsdf, "eta", 1.0, true);
     material->k = pm_scene_value_amount(source, bsdf, "k", 0.0, false);
+    if (pm_spectrum_max(material->eta) > 1e50 || pm_spectrum_max(material->k) > 1e50) {
+        PM_FAULT(source, bsdf, "%s eta and k must be at most 1e50", type);
+    }
 }
 
 static void read_glass(pm_scene_file *source, const pm_xml *bsdf, pm_material *material)
