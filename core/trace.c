@@ -126,13 +126,15 @@ static pm_status scatter(const pm_tracing *tracing, pm_flight *flight, const pm_
     pm_scatter turn;
     pm_material_sample(lobes, outcome.lobe, &rng, &turn);
     event.carried = pm_spectrum_mul(outcome.power, turn.weight);
+    // A rough lobe may draw a direction into the surface, which carries nothing.
+    *goes_on = !pm_spectrum_is_black(event.carried);
+    event.scatter = *goes_on ? event.scatter : 0;
     tell(tracing, flight, event);
 
     flight->power = event.carried;
     flight->ray = pm_hit_ray(hit, turn.wo, flight->ray.wavelength, turn.medium);
     flight->bounce++;
     flight->specular = specular ? flight->specular + 1 : 0;
-    *goes_on = true;
     return PM_OK;
 }
 

@@ -84,6 +84,30 @@ static void black_floor_keeps_its_photons(void)
     pm_scenes_free(&s);
 }
 
+static pm_status has_power(void *context, const pm_deposit *deposit)
+{
+    (void)context;
+    CHECK(!pm_spectrum_is_black(deposit->power));
+    return PM_OK;
+}
+
+static void photons_without_power_end(void)
+{
+    // So rough a mirror draws many directions below itself.
+    pm_scenes s;
+    pm_ledger l;
+    pm_scenes_begin(&s);
+    pm_scenes_room(&s, 1.0, pm_scenes_rough_mirror(&s, PM_MICROFACET_GGX, 1.0));
+    pm_scenes_point(&s, pm_vec(0.2, 0.1, -0.95), pm_gray(2.0));
+    pm_scenes_ready(&s);
+    pm_tracing tracing = pm_ledger_open(&s, &l);
+    tracing.max_bounces = 20;
+    tracing.sink.deposit = has_power;
+    pm_ledger_trace(&s, &tracing, 2000);
+    CHECK(l.absorbed > 200 && l.escaped == 0);
+    pm_scenes_free(&s);
+}
+
 static void back_of_a_sheet_absorbs(void)
 {
     for (int above = 0; above < 2; above++) {
@@ -263,4 +287,6 @@ PM_TESTS({"trace.16", "no light leaves a closed room, whose corners hold",
           caustic_pass_keeps_the_marked},
          {"trace.23", "a caustic pass ends every photon at its first diffuse event",
           caustic_pass_ends_at_diffuse},
-         {"trace.24", "a sink's refusal ends the tracing with its message", sink_can_stop})
+         {"trace.24", "a sink's refusal ends the tracing with its message", sink_can_stop},
+         {"trace.26", "a photon that a rough surface throws into itself ends there",
+          photons_without_power_end})
