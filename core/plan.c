@@ -209,10 +209,11 @@ pm_status pm_plan_split(uint64_t total, const bool traced[PM_MAP_COUNT],
         left -= split[kind];
         weights -= weight[kind];
         if (split[kind] == 0) {
-            return pm_status_fail(PM_EINPUT,
-                                  "--photons must leave a photon for each map that the scene "
-                                  "needs, got %llu",
-                                  (unsigned long long)total);
+            return pm_status_fail(
+                PM_EINPUT,
+                "render: --photons must leave a photon for each map that the scene "
+                "needs, got %llu",
+                (unsigned long long)total);
         }
     }
     memcpy(photons, split, sizeof split);

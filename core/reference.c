@@ -196,9 +196,9 @@ static pm_status check(const pm_scene *scene, pm_reference_settings *settings,
 {
     if (settings->spp == 0 || settings->spp % 2 != 0) {
         return pm_status_fail(PM_EINPUT,
-                              "%s: samples of a pixel must be even and above 0, half of them"
+                              "--spp: samples of a pixel must be even and above 0, half of them"
                               " for each half of the picture, got %u",
-                              scene->path, settings->spp);
+                              settings->spp);
     }
     pm_reference_blind(scene, false, report->blind);
     if (settings->light_paths > 0 && report->blind[0] != '\0') {

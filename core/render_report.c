@@ -40,9 +40,17 @@ static void print_map(const pm_scene *scene, const pm_render_maps *maps, pm_map_
     row("balancing", pm_map_name(kind), maps->balance_seconds[kind], map->count, power, power);
 }
 
-static void remark_on_map(const pm_render_maps *maps, pm_map_kind kind)
+static void remark_on_map(const pm_render_settings *settings, const pm_render_maps *maps,
+                          pm_map_kind kind)
 {
     const pm_photon_map *map = &maps->map[kind];
+    uint32_t k = settings->light.estimate.k;
+    if (maps->has[kind] && map->count < k) {
+        printf(
+            "%s map: %u photons, fewer than k = %u: each estimate takes them all, however far "
+            "away; emit more\n",
+            pm_map_name(kind), map->count, k);
+    }
     double lost = pm_spectrum_mean(maps->pass[kind].audit.lost);
     if (map->refused > 0) {
         printf("%s map: %llu photons without a finite value were refused\n", pm_map_name(kind),
@@ -76,7 +84,7 @@ static void print_remarks(const pm_render_settings *settings, const pm_render_ma
                           const pm_eye_report *eye)
 {
     for (pm_map_kind kind = 0; kind < PM_MAP_COUNT; kind++) {
-        remark_on_map(maps, kind);
+        remark_on_map(settings, maps, kind);
     }
     remark_on_choices(settings, maps);
     if (eye->cut > 0) {
