@@ -78,7 +78,8 @@ static void compare(const pm_photon_map *places, const pm_photon_map *map, pm_ve
         bool covered;
         pm_estimate found;
         double unevenness;
-        CHECK_OK(pm_irradiance_find(places, &settings, reach, &point, &covered, &found, &unevenness));
+        CHECK_OK(pm_irradiance_find(places, &settings, reach, &point, &covered, &found,
+                                    &unevenness));
         CHECK(covered && found.radius > 0.0 && found.found == K);
         *by_place += found.value.c[0] / LOOKUPS;
         CHECK_OK(pm_estimate_irradiance(map, &settings, &point, scratch, &found));
@@ -130,17 +131,20 @@ static void each_side_of_a_wall_has_its_own(void)
     pm_estimate found = {.radius = -1.0};
     double unevenness;
     pm_estimate_point behind = {{0.1, 0.2, 0.0}, {0.0, 0.0, -1.0}};
-    CHECK_OK(pm_irradiance_find(&places, &settings, reach, &behind, &covered, &found, &unevenness));
+    CHECK_OK(
+        pm_irradiance_find(&places, &settings, reach, &behind, &covered, &found, &unevenness));
     CHECK(!covered && found.radius == -1.0);
     pm_estimate_point across = {{0.1, 0.2, 0.0}, {1.0, 0.0, 0.0}}; // the foot of a wall
-    CHECK_OK(pm_irradiance_find(&places, &settings, reach, &across, &covered, &found, &unevenness));
+    CHECK_OK(
+        pm_irradiance_find(&places, &settings, reach, &across, &covered, &found, &unevenness));
     CHECK(!covered);
     pm_estimate_point beyond = {{5.0, 0.0, 0.0}, {0.0, 0.0, 1.0}};
-    CHECK_OK(
-        pm_irradiance_find(&places, &settings, HUGE_VAL, &beyond, &covered, &found, &unevenness));
+    CHECK_OK(pm_irradiance_find(&places, &settings, HUGE_VAL, &beyond, &covered, &found,
+                                &unevenness));
     CHECK(!covered); // by no place's own disc, however far one looks
     pm_estimate_point front = {{0.1, 0.2, 0.0}, {0.0, 0.0, 1.0}};
-    CHECK_OK(pm_irradiance_find(&places, &settings, reach, &front, &covered, &found, &unevenness));
+    CHECK_OK(
+        pm_irradiance_find(&places, &settings, reach, &front, &covered, &found, &unevenness));
     CHECK(covered);
     pm_photon_map_free(&places);
     pm_photon_map_free(&map);
@@ -195,8 +199,8 @@ static void the_nearest_place_is_found(void)
         bool covered;
         pm_estimate found;
         double unevenness;
-        CHECK_OK(
-            pm_irradiance_find(&places, &settings, reach, &point, &covered, &found, &unevenness));
+        CHECK_OK(pm_irradiance_find(&places, &settings, reach, &point, &covered, &found,
+                                    &unevenness));
         uint32_t want = nearest_place(&places, &point);
         CHECK(covered == (want != UINT32_MAX));
         if (covered) {
