@@ -181,7 +181,7 @@ typedef struct {
 static const quality plain = {60000, 60000, 16, 0.015, 0.0};
 static const quality sharp = {20000, 100000, 10, 0.05, 0.0125}; // caustics with edges
 // Discs lie flat: where a surface is curved or ribbed within their radius they lose photons.
-static const quality curved = {300000, 60000, 10, 0.05, 0.01};
+static const quality curved = {300000, 60000, 10, 0.015, 0.0};
 
 static regions take_render(const peer *p, const pm_intersector *world, quality q)
 {
