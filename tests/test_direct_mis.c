@@ -3,21 +3,13 @@
 #include "direct.h"
 
 #include "light.h"
+#include "receivers.h"
 #include "scenes.h"
 #include "shapes.h"
 #include "tally.h"
 #include "test.h"
 
-static const pm_rng_source source = {.seed = 31, .stream = PM_STREAM_TEST};
 static const pm_vec3 origin = {0.0, 0.0, 0.0};
-
-/// What a ray from `wi` meets at the origin: shape 0, which lies across z there.
-static void meet(const pm_scenes *s, pm_vec3 wi, pm_hit *hit, pm_lobes *lobes)
-{
-    pm_ray ray = {pm_vec_scale(wi, 0.01), pm_vec_negate(wi), HUGE_VAL, 0.0, PM_NONE};
-    CHECK(pm_closest(&s->world, &ray, hit) && hit->shape == 0);
-    pm_material_lobes(&s->scene, hit, wi, 0.0, lobes);
-}
 
 // --- either technique alone -----------------------------------------------------------------
 
@@ -68,18 +60,6 @@ static double by_lobe(const pm_scenes *s, const pm_hit *hit, const pm_lobes *lob
     return weight * (seen + pm_light_sky(&s->scene).c[0]);
 }
 
-/// pm_direct() with `samples` points on lamps.
-static double by_direct(const pm_scenes *s, const pm_hit *hit, const pm_lobes *lobes,
-                        uint32_t samples, uint64_t run)
-{
-    pm_direct_query query = {.world = &s->world, .samples = samples, .step = 1};
-    query.rng = pm_rng_at(&source, run, 1);
-    pm_rng rng = pm_rng_at(&source, run, 0);
-    query.shift[0] = pm_rng_draw(&rng);
-    query.shift[1] = pm_rng_draw(&rng);
-    return pm_direct(&query, hit, lobes).c[0];
-}
-
 // --- lamps ----------------------------------------------------------------------------------
 
 /// A rough mirror in the origin and a square lamp of radiance 3 at height 1, moved along x to
@@ -103,12 +83,12 @@ static void compare_ways(const pm_scenes *s, int lamps, pm_tally *both, pm_tally
 {
     pm_hit hit;
     pm_lobes lobes;
-    meet(s, pm_scenes_slant(0.8), &hit, &lobes);
+    pm_receivers_meet(s, pm_scenes_slant(0.8), &hit, &lobes);
     CHECK(lobes.diffuse && lobes.count == 1);
     *both = *lights = *lobe = (pm_tally){0};
     for (uint64_t run = 0; run < RUNS; run++) {
-        pm_rng rng = pm_rng_at(&source, run, 2);
-        pm_tally_take(both, by_direct(s, &hit, &lobes, 1, run));
+        pm_rng rng = pm_rng_at(&pm_receivers_source, run, 2);
+        pm_tally_take(both, pm_receivers_direct(s, &hit, &lobes, 1, run));
         double sum = 0.0;
         for (int i = 0; i < 2 * lamps; i++) {
             sum += 0.5 * by_light(s, i % lamps, &hit, &lobes, 0, &rng);
@@ -176,7 +156,7 @@ static void lights_without_extent_come_in_full(void)
     pm_scenes_ready(&s);
     pm_hit hit;
     pm_lobes lobes;
-    meet(&s, pm_scenes_slant(0.8), &hit, &lobes);
+    pm_receivers_meet(&s, pm_scenes_slant(0.8), &hit, &lobes);
     double want = 0.0;
     for (int i = 0; i < 3; i++) {
         const double u[2] = {0.0, 0.0};
@@ -198,7 +178,7 @@ static double by_glint(const pm_scenes *s, const pm_hit *hit, const pm_lobes *lo
                        uint64_t run, uint64_t *rays)
 {
     pm_direct_query query = {.world = &s->world, .samples = 4, .step = 1};
-    pm_rng rng = pm_rng_at(&source, run, 0);
+    pm_rng rng = pm_rng_at(&pm_receivers_source, run, 0);
     query.shift[0] = pm_rng_draw(&rng);
     query.shift[1] = pm_rng_draw(&rng);
     double glint = pm_direct_glint(&query, hit, lobes).c[0];
@@ -215,14 +195,14 @@ static void glint_and_lobe_make_the_whole(void)
         pm_scenes_sky(&s, pm_gray(0.1));
         pm_hit hit;
         pm_lobes lobes;
-        meet(&s, pm_scenes_slant(0.8), &hit, &lobes);
+        pm_receivers_meet(&s, pm_scenes_slant(0.8), &hit, &lobes);
         CHECK(lobes.count == 1 && lobes.lobe[0].specular && !lobes.diffuse);
         pm_tally shared = {0};
         pm_tally whole = {0};
         double glints = 0.0;
         uint64_t rays = 0;
         for (uint64_t run = 0; run < RUNS; run++) {
-            pm_rng rng = pm_rng_at(&source, run, 2);
+            pm_rng rng = pm_rng_at(&pm_receivers_source, run, 2);
             double glint = by_glint(&s, &hit, &lobes, run, &rays);
             pm_tally_take(&shared, glint + by_lobe(&s, &hit, &lobes, 0, true, &rng));
             pm_tally_take(&whole, by_lobe(&s, &hit, &lobes, 0, false, &rng));
@@ -232,7 +212,7 @@ static void glint_and_lobe_make_the_whole(void)
         CHECK(glints > 0.001 * whole.sum && glints < 0.999 * whole.sum);
         CHECK(i > 0 || pm_tally_variance(&shared) < 0.1 * pm_tally_variance(&whole));
         CHECK(rays > RUNS);
-        CHECK(by_direct(&s, &hit, &lobes, 4, 0) == 0.0); // no D lobe
+        CHECK(pm_receivers_direct(&s, &hit, &lobes, 4, 0) == 0.0); // no D lobe
         pm_scenes_free(&s);
     }
 }
@@ -250,7 +230,7 @@ static void glints_need_a_rough_mirror(void)
         }
         pm_hit hit;
         pm_lobes lobes;
-        meet(&s, pm_scenes_slant(0.8), &hit, &lobes);
+        pm_receivers_meet(&s, pm_scenes_slant(0.8), &hit, &lobes);
         uint64_t rays = 0;
         CHECK(by_glint(&s, &hit, &lobes, 1, &rays) == 0.0 && rays == 0);
         pm_scenes_free(&s);
@@ -267,9 +247,9 @@ static void plain_surfaces_pay_nothing(void)
     s.shapes[0].material[0] = pm_scenes_diffuse(&s, pm_gray(0.5));
     pm_hit hit;
     pm_lobes lobes;
-    meet(&s, pm_scenes_slant(0.8), &hit, &lobes);
+    pm_receivers_meet(&s, pm_scenes_slant(0.8), &hit, &lobes);
     pm_direct_query query = {.world = &s.world, .samples = 9, .step = 1};
-    query.rng = pm_rng_at(&source, 5, 5);
+    query.rng = pm_rng_at(&pm_receivers_source, 5, 5);
     pm_rng before = query.rng;
     CHECK(pm_direct(&query, &hit, &lobes).c[0] > 0.0);
     CHECK(query.rays == 9 && query.spared == 0);

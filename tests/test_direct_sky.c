@@ -1,32 +1,11 @@
 // Direct light from the constant light, which only directions drawn by the surface find.
 #include "direct.h"
 
+#include "receivers.h"
 #include "scenes.h"
 #include "shapes.h"
 #include "tally.h"
 #include "test.h"
-
-static const pm_rng_source source = {.seed = 31, .stream = PM_STREAM_TEST};
-
-/// What a ray from `wi` meets at the origin: shape 0, which lies across z there.
-static void meet(const pm_scenes *s, pm_vec3 wi, pm_hit *hit, pm_lobes *lobes)
-{
-    pm_ray ray = {pm_vec_scale(wi, 0.01), pm_vec_negate(wi), HUGE_VAL, 0.0, PM_NONE};
-    CHECK(pm_closest(&s->world, &ray, hit) && hit->shape == 0);
-    pm_material_lobes(&s->scene, hit, wi, 0.0, lobes);
-}
-
-/// pm_direct() with `samples` points on lamps.
-static double by_direct(const pm_scenes *s, const pm_hit *hit, const pm_lobes *lobes,
-                        uint32_t samples, uint64_t run)
-{
-    pm_direct_query query = {.world = &s->world, .samples = samples, .step = 1};
-    query.rng = pm_rng_at(&source, run, 1);
-    pm_rng rng = pm_rng_at(&source, run, 0);
-    query.shift[0] = pm_rng_draw(&rng);
-    query.shift[1] = pm_rng_draw(&rng);
-    return pm_direct(&query, hit, lobes).c[0];
-}
 
 static void open_floor_gets_pi_l(void)
 {
@@ -37,8 +16,8 @@ static void open_floor_gets_pi_l(void)
     pm_scenes_ready(&s);
     pm_hit hit;
     pm_lobes lobes;
-    meet(&s, pm_scenes_slant(0.6), &hit, &lobes);
-    CHECK_NEAR(by_direct(&s, &hit, &lobes, 16, 0), 0.5 * 3.0, 1e-14); // E = pi L
+    pm_receivers_meet(&s, pm_scenes_slant(0.6), &hit, &lobes);
+    CHECK_NEAR(pm_receivers_direct(&s, &hit, &lobes, 16, 0), 0.5 * 3.0, 1e-14); // E = pi L
     pm_scenes_free(&s);
 }
 
@@ -60,10 +39,10 @@ static void a_disk_hides_its_share_of_the_sky(void)
         pm_scenes_ready(&s);
         pm_hit hit;
         pm_lobes lobes;
-        meet(&s, pm_scenes_slant(0.6), &hit, &lobes);
+        pm_receivers_meet(&s, pm_scenes_slant(0.6), &hit, &lobes);
         double hidden = 0.36;
         double want = kind == 1 ? 2.0 : 2.0 * (1.0 - hidden) + (kind == 2 ? 5.0 * hidden : 0.0);
-        CHECK_NEAR(by_direct(&s, &hit, &lobes, 40000, 1), 0.5 * want, 3e-4 * want);
+        CHECK_NEAR(pm_receivers_direct(&s, &hit, &lobes, 40000, 1), 0.5 * want, 3e-4 * want);
         pm_scenes_free(&s);
     }
 }
@@ -78,12 +57,12 @@ static void check_under_sky(int (*make)(pm_scenes *s), int lobe_count)
     pm_scenes_ready(&s);
     pm_hit hit;
     pm_lobes lobes;
-    meet(&s, pm_scenes_slant(0.4), &hit, &lobes);
+    pm_receivers_meet(&s, pm_scenes_slant(0.4), &hit, &lobes);
     CHECK(lobes.count == lobe_count);
     pm_tally direct = {0};
     pm_tally brute = {0};
     for (uint64_t run = 0; run < 3000; run++) {
-        pm_rng rng = pm_rng_at(&source, run, 3);
+        pm_rng rng = pm_rng_at(&pm_receivers_source, run, 3);
         double sum = 0.0;
         for (int i = 0; i < lobes.count; i++) {
             pm_scatter scatter;
@@ -92,7 +71,7 @@ static void check_under_sky(int (*make)(pm_scenes *s), int lobe_count)
             sum += lobes.lobe[i].specular ? 0.0 : one;
         }
         pm_tally_take(&brute, sum);
-        pm_tally_take(&direct, by_direct(&s, &hit, &lobes, 2, run));
+        pm_tally_take(&direct, pm_receivers_direct(&s, &hit, &lobes, 2, run));
     }
     pm_tally_same("under the sky", &direct, &brute);
     pm_scenes_free(&s);
