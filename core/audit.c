@@ -51,7 +51,7 @@ static void judge_roulette(pm_audit *audit, const pm_event *event)
     for (int i = 0; i < event->lobes->count; i++) {
         grow(&albedo, event->lobes->lobe[i].albedo);
     }
-    pm_spectrum promised = pm_spectrum_mul(event->arriving, albedo);
+    pm_spectrum promised = pm_spectrum_mul(event->entering, albedo);
     pm_spectrum gap = pm_spectrum_sub(event->chosen, promised);
     grow(&audit->roulette, gap);
     grow(&audit->roulette_variance, pm_spectrum_mul(gap, gap));

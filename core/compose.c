@@ -2,6 +2,9 @@
 // ends it as far as D is concerned.
 #include "compose.h"
 
+#include "medium.h"
+#include "wavelength.h"
+
 #include <stddef.h>
 
 /// An eye path on its way.
@@ -25,8 +28,7 @@ static bool meet(const pm_compose *compose, const pm_path *path, pm_vertex *at)
     if (!pm_closest(compose->world, ray, &at->hit)) {
         return false;
     }
-    pm_material_lobes(compose->world->scene, &at->hit, pm_vec_negate(ray->direction),
-                      ray->wavelength, &at->lobes);
+    pm_material_lobes(compose->world->scene, &at->hit, ray, &at->lobes);
     at->from = path->from;
     at->pdf = path->pdf;
     return true;
@@ -82,6 +84,42 @@ static pm_status ask_sky(const pm_compose *compose, const pm_path *path, pm_eye 
     return PM_OK;
 }
 
+/// The stretch of medium that the path's ray runs through before it `met` something, and what
+/// the medium leaves of all that lies behind. False where the ray runs in none.
+static bool pass_medium(const pm_compose *compose, pm_path *path, bool met, const pm_vertex *at,
+                        pm_stretch *through)
+{
+    if (path->ray.medium == PM_NONE) {
+        return false;
+    }
+    *through = (pm_stretch){.ray = path->ray, .pixel = at->pixel, .sample = at->sample};
+    through->ray.t_max = met ? at->hit.t : HUGE_VAL;
+    const pm_medium *medium = &compose->world->scene->media[path->ray.medium];
+    double left = pm_medium_transmittance(medium, through->ray.t_max);
+    path->weight = pm_spectrum_scale(path->weight, left);
+    return true;
+}
+
+/// What a medium scatters into the eye path on its way to the vertex, or away.
+static pm_status ask_volume(const pm_compose *compose, pm_path *path, bool met,
+                            const pm_vertex *at, pm_eye *eye)
+{
+    pm_path before = *path;
+    pm_stretch through;
+    pm_layer into = layer_on(path, PM_LAYER_VOLUME);
+    if (!pass_medium(compose, path, met, at, &through)) {
+        return PM_OK;
+    }
+    through.number = ++eye->stretches;
+    if (compose->ask.volume == NULL || !compose->wanted[into]) {
+        return PM_OK;
+    }
+    pm_spectrum radiance = pm_gray(0.0);
+    PM_TRY(compose->ask.volume(compose->ask.context, &through, &radiance));
+    add(&before, into, radiance, eye);
+    return PM_OK;
+}
+
 static pm_status ask_diffuse(const pm_compose *compose, const pm_vertex *at,
                              const pm_path *path, pm_eye *eye)
 {
@@ -114,7 +152,12 @@ static bool emits_towards(const pm_scene *scene, const pm_vertex *at)
 static pm_status next_vertex(const pm_compose *compose, pm_path *path, pm_vertex *at,
                              pm_eye *eye, bool *found)
 {
-    while ((*found = meet(compose, path, at))) {
+    while (true) {
+        *found = meet(compose, path, at);
+        PM_TRY(ask_volume(compose, path, *found, at, eye));
+        if (!*found) {
+            return ask_sky(compose, path, eye);
+        }
         if (emits_towards(compose->world->scene, at)) {
             eye->emitter = true;
             PM_TRY(ask(compose, compose->ask.emitted, at, path, PM_LAYER_EMISSION, eye));
@@ -124,7 +167,6 @@ static pm_status next_vertex(const pm_compose *compose, pm_path *path, pm_vertex
         }
         path->ray = beyond(&path->ray, at);
     }
-    return ask_sky(compose, path, eye);
 }
 
 /// The S lobes of a vertex, in the order of its lobes; writes their places there.
@@ -221,6 +263,54 @@ static pm_status choose_lobe(const pm_compose *compose, pm_path *path, const pm_
     return PM_OK;
 }
 
+/// All that happens at a vertex: the light asked for there, and the turns taken.
+static pm_status leave(const pm_compose *compose, pm_path *path, const pm_vertex *at,
+                       uint64_t index, pm_eye *eye, bool *goes_on)
+{
+    *goes_on = false;
+    PM_TRY(ask_diffuse(compose, at, path, eye));
+    if (!may_turn(compose, path, at, &eye->cut)) {
+        return PM_OK;
+    }
+    PM_TRY(ask_glint(compose, at, path, eye));
+    pm_rng rng = pm_rng_at(&compose->source, index, at->vertex);
+    if (path->specular < compose->splits) {
+        return follow_every_lobe(compose, path, at, index, &rng, eye);
+    }
+    return choose_lobe(compose, path, at, &rng, goes_on);
+}
+
+/// The path with a wavelength, at a vertex that disperses; `share` of the whole.
+static void take_wavelength(const pm_compose *compose, double u, double share, pm_path *path,
+                            pm_vertex *at)
+{
+    path->ray.wavelength = pm_wavelength_at(u);
+    pm_spectrum weight = pm_wavelength_weight(path->ray.wavelength);
+    path->weight = pm_spectrum_scale(pm_spectrum_mul(path->weight, weight), share);
+    pm_material_lobes(compose->world->scene, &at->hit, &path->ray, &at->lobes);
+}
+
+/// The path splits into even shares of the range of wavelengths, each a vertex of its own.
+static pm_status follow_every_colour(const pm_compose *compose, const pm_path *path,
+                                     const pm_vertex *at, uint64_t index, pm_eye *eye)
+{
+    uint32_t count = compose->colours > 0 ? compose->colours : 1;
+    pm_rng rng = pm_rng_at(&compose->source, index, at->vertex);
+    double shift = pm_rng_draw(&rng);
+    for (uint32_t i = 0; i < count; i++) {
+        pm_path coloured = *path;
+        pm_vertex there = *at;
+        there.vertex = ++eye->vertices;
+        bool goes_on;
+        take_wavelength(compose, (i + shift) / count, 1.0 / count, &coloured, &there);
+        PM_TRY(leave(compose, &coloured, &there, index, eye, &goes_on));
+        if (goes_on) {
+            PM_TRY(follow(compose, coloured, there, index, eye));
+        }
+    }
+    return PM_OK;
+}
+
 static pm_status follow(const pm_compose *compose, pm_path path, pm_vertex at, uint64_t index,
                         pm_eye *eye)
 {
@@ -233,16 +323,10 @@ static pm_status follow(const pm_compose *compose, pm_path path, pm_vertex at, u
         }
         at.vertex = ++eye->vertices;
         note_first(&at, &path, eye);
-        PM_TRY(ask_diffuse(compose, &at, &path, eye));
-        if (!may_turn(compose, &path, &at, &eye->cut)) {
-            return PM_OK;
+        if (at.lobes.disperses) {
+            return follow_every_colour(compose, &path, &at, index, eye);
         }
-        PM_TRY(ask_glint(compose, &at, &path, eye));
-        pm_rng rng = pm_rng_at(&compose->source, index, at.vertex);
-        if (path.specular < compose->splits) {
-            return follow_every_lobe(compose, &path, &at, index, &rng, eye);
-        }
-        PM_TRY(choose_lobe(compose, &path, &at, &rng, &goes_on));
+        PM_TRY(leave(compose, &path, &at, index, eye, &goes_on));
     }
     return PM_OK;
 }
@@ -254,22 +338,52 @@ pm_status pm_compose_eye(const pm_compose *compose, const pm_ray *ray, uint64_t 
     return follow(compose, path_along(ray), at, index, eye);
 }
 
+/// What a medium scatters into a gather ray on its way to the vertex, or away.
+static pm_status ask_haze(const pm_compose *compose, pm_path *path, bool met,
+                          const pm_vertex *at, pm_rng *rng, pm_spectrum *radiance)
+{
+    pm_spectrum weight = path->weight;
+    pm_stretch through;
+    if (!pass_medium(compose, path, met, at, &through) || compose->ask.haze == NULL) {
+        return PM_OK;
+    }
+    pm_spectrum scattered = pm_gray(0.0);
+    PM_TRY(compose->ask.haze(compose->ask.context, &through, rng, &scattered));
+    *radiance = pm_spectrum_add(*radiance, pm_spectrum_mul(weight, scattered));
+    return PM_OK;
+}
+
+static pm_status ask_global(const pm_compose *compose, const pm_path *path,
+                            const pm_vertex *end, pm_rng *rng, pm_spectrum *radiance)
+{
+    if (!end->lobes.diffuse || compose->ask.global == NULL) {
+        return PM_OK;
+    }
+    pm_spectrum leaving = pm_gray(0.0);
+    PM_TRY(compose->ask.global(compose->ask.context, end, rng, &leaving));
+    *radiance = pm_spectrum_add(*radiance, pm_spectrum_mul(path->weight, leaving));
+    return PM_OK;
+}
+
 pm_status pm_compose_gather(const pm_compose *compose, const pm_ray *ray, const pm_vertex *at,
                             pm_rng *rng, pm_spectrum *radiance, uint64_t *cut)
 {
     *radiance = pm_gray(0.0);
     pm_path path = path_along(ray);
     pm_vertex end = *at;
-    bool goes_on = true;
-    while (goes_on && !pm_spectrum_is_black(path.weight) && meet(compose, &path, &end)) {
+    for (bool goes_on = true; goes_on && !pm_spectrum_is_black(path.weight);) {
+        bool met = meet(compose, &path, &end);
+        PM_TRY(ask_haze(compose, &path, met, &end, rng, radiance));
+        if (!met) {
+            return PM_OK;
+        }
         if (end.lobes.passes) {
             path.ray = beyond(&path.ray, &end);
             continue;
         }
-        if (end.lobes.diffuse && compose->ask.global != NULL) {
-            pm_spectrum leaving = pm_gray(0.0);
-            PM_TRY(compose->ask.global(compose->ask.context, &end, rng, &leaving));
-            *radiance = pm_spectrum_add(*radiance, pm_spectrum_mul(path.weight, leaving));
+        PM_TRY(ask_global(compose, &path, &end, rng, radiance));
+        if (end.lobes.disperses) {
+            take_wavelength(compose, pm_rng_draw(rng), 1.0, &path, &end);
         }
         goes_on = may_turn(compose, &path, &end, cut);
         if (goes_on) {

@@ -2,8 +2,9 @@
 // once.
 //
 // Reading a path from the eye, the first rule that fits names its layer: no event: emission;
-// first event S: specular; else, from a diffuse first event, LD is direct, LS+D caustic, any
-// other indirect. The sources below know how to answer; composing decides whom to ask.
+// first event S: specular; V: volume; else, from a diffuse first event, LD is direct, LS+D
+// caustic, any other indirect. The sources below know how to answer; composing decides whom to
+// ask, and lets media take their share of what lies behind them.
 #ifndef PM_COMPOSE_H
 #define PM_COMPOSE_H
 
@@ -23,6 +24,14 @@ typedef struct {
                   // eye and D lobes
 } pm_vertex;
 
+/// A part of a path inside one medium.
+typedef struct {
+    pm_ray ray; // its medium is set; ends at t_max, INFINITY where nothing is met
+    uint64_t pixel;
+    uint32_t sample;
+    uint32_t number; // which stretch of the sample's paths this is, from 1
+} pm_stretch;
+
 /// Whom to ask for radiance [W/(m^2 sr)] leaving a vertex towards lobes.wi. Each writes its
 /// last argument. Those that are NULL do not exist in this picture and count as black.
 ///
@@ -40,6 +49,11 @@ typedef struct {
                           pm_spectrum *radiance); // the rest
     /// All of it by D lobes, at the end of a gather ray; may draw on from that ray's `rng`.
     pm_status (*global)(void *context, const pm_vertex *at, pm_rng *rng, pm_spectrum *radiance);
+    /// What a medium scatters into a stretch of an eye path, arriving at its start.
+    pm_status (*volume)(void *context, const pm_stretch *along, pm_spectrum *radiance);
+    /// The same into a gather ray.
+    pm_status (*haze)(void *context, const pm_stretch *along, pm_rng *rng,
+                      pm_spectrum *radiance);
 } pm_compose_sources;
 
 typedef struct {
@@ -48,6 +62,8 @@ typedef struct {
     pm_roulette_rule rule;
     uint32_t max_specular; // S events in a row
     uint32_t splits;       // S events at which every lobe is followed; later ones play roulette
+    uint32_t colours;      // wavelengths that an eye path is split into at the first surface
+                           // that disperses; 0 counts as 1
     bool wanted[PM_LAYER_COUNT];
     pm_compose_sources ask;
 } pm_compose;
@@ -55,11 +71,12 @@ typedef struct {
 /// What one eye ray brings.
 typedef struct {
     pm_spectrum layer[PM_LAYER_COUNT];
-    bool hit;          // the ray met a surface at all
-    bool emitter;      // an emitter was met, through any number of S events
-    double depth;      // [m] from the eye to the first surface
-    pm_vec3 normal;    // of the first surface, on the eye's side
-    uint32_t vertices; // met so far
+    bool hit;           // the ray met a surface at all
+    bool emitter;       // an emitter was met, through any number of S events
+    double depth;       // [m] from the eye to the first surface
+    pm_vec3 normal;     // of the first surface, on the eye's side
+    uint32_t vertices;  // met so far
+    uint32_t stretches; // been through so far
     uint64_t cut; // paths ended by max_specular, where they had another S event before them
 } pm_eye;
 
@@ -70,7 +87,8 @@ typedef struct {
 pm_status pm_compose_eye(const pm_compose *compose, const pm_ray *ray, uint64_t pixel,
                          uint32_t sample, uint64_t index, pm_eye *eye);
 
-/// What a gather ray adds: at a diffuse surface everything that leaves it, by the global map.
+/// What a gather ray adds: at a diffuse surface everything that leaves it, by the global map,
+/// and what media scatter into it on the way.
 ///
 /// 0 from emitters and the sky, met directly (direct light has them) or through S events (the
 /// caustic map has them); S events are followed to a diffuse surface.

@@ -59,11 +59,12 @@ static pm_spectrum response(const receiver *to, const pm_light_sample *sample, b
     return pm_spectrum_scale(sum, pm_most(0.0, cosine));
 }
 
-/// Whether something stands between the receiver and the light.
-static bool shadowed(pm_direct_query *query, const receiver *to, const pm_light_sample *sample)
+/// Share of the light that gets to the receiver.
+static double clear(pm_direct_query *query, const receiver *to, const pm_light_sample *sample)
 {
     query->rays++;
-    return pm_light_blocked(query->world, to->hit, to->lobes->medium_here, sample);
+    pm_vec3 from = pm_hit_leave(to->hit, sample->direction);
+    return pm_light_clear(query->world, from, to->lobes->medium_here, sample);
 }
 
 /// What the shadow photons say of one light, once they were asked.
@@ -103,10 +104,14 @@ static pm_spectrum from_light(pm_direct_query *query, int light, const double u[
         return arriving;
     }
     pm_shadow_answer answer = ask_photons(query, light, to, known);
-    query->spared += answer != PM_SHADOW_UNSURE;
-    bool dark = answer == PM_SHADOW_DARK ||
-                (answer == PM_SHADOW_UNSURE && shadowed(query, to, &sample));
-    return dark ? pm_gray(0.0) : arriving;
+    // Photons know what stands in the way, not what media take.
+    bool spared =
+        answer == PM_SHADOW_DARK || (answer == PM_SHADOW_LIT && scene->medium_count == 0);
+    query->spared += spared;
+    if (spared) {
+        return answer == PM_SHADOW_LIT ? arriving : pm_gray(0.0);
+    }
+    return pm_spectrum_scale(arriving, clear(query, to, &sample));
 }
 
 /// Point number `s` of the query's lattice.
@@ -217,8 +222,7 @@ static pm_spectrum look_wide(pm_direct_query *query, const receiver *to, pm_vec3
         return look_along(query, to, &way);
     }
     pm_light_sample sky = {.direction = direction, .endless = true};
-    bool dark = shadowed(query, to, &sky);
-    return dark ? pm_gray(0.0) : pm_light_sky(query->world->scene);
+    return pm_spectrum_scale(pm_light_sky(query->world->scene), clear(query, to, &sky));
 }
 
 /// Sky and, where one is `near`, lamps on all wide D lobes together, by an even spread of

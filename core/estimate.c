@@ -7,6 +7,7 @@
 #include "estimate.h"
 
 #include "coarse_normal.h"
+#include "medium.h"
 #include "photon_map.h"
 #include "store.h"
 
@@ -275,15 +276,11 @@ typedef struct {
     pm_vec3 wo;
 } scattering;
 
-/// Albedo times the Henyey-Greenstein phase function [1/sr]; its mean cosine g is that between
-/// the ways before and after.
+/// Albedo times phase function [1/sr].
 static pm_spectrum scattered(const void *context, const pm_photon_view *photon)
 {
     const scattering *to = context;
-    double g = to->medium->g;
-    double cosine = pm_vec_dot(photon->direction, to->wo);
-    double base = 1.0 + g * g - 2.0 * g * cosine;
-    double phase = (1.0 - g * g) / (4.0 * PM_PI * base * sqrt(base));
+    double phase = pm_medium_phase(to->medium, pm_vec_dot(photon->direction, to->wo));
     return pm_spectrum_scale(to->medium->albedo, phase);
 }
 

@@ -7,6 +7,7 @@
 #include "light.h"
 #include "look.h"
 #include "lookup.h"
+#include "media.h"
 
 #include <stddef.h>
 
@@ -174,6 +175,19 @@ static pm_status ask_indirect_gathered(void *context, const pm_vertex *at,
     return PM_OK;
 }
 
+// --- media -----------------------------------------------------------------------------------
+
+static pm_status ask_volume(void *context, const pm_stretch *along, pm_spectrum *radiance)
+{
+    return pm_media_seen(context, along, radiance);
+}
+
+static pm_status ask_haze(void *context, const pm_stretch *along, pm_rng *rng,
+                          pm_spectrum *radiance)
+{
+    return pm_media_gathered(context, along, rng, radiance);
+}
+
 // --- ends of gather rays ---------------------------------------------------------------------
 
 static pm_status ask_global(void *context, const pm_vertex *at, pm_rng *rng,
@@ -251,6 +265,7 @@ void pm_gather_sources(pm_gather *gather, pm_compose *compose)
     bool has_caustic = gather->map[PM_MAP_CAUSTIC] != NULL;
     bool own = !gather->settings.caustics_global;
     bool gathers = gather->settings.rays > 0;
+    bool has_media = compose->world->scene->medium_count > 0;
     gather->compose = compose;
     gather->marked = pm_lookup_has_marked(gather);
     if (gather->irradiance != NULL) {
@@ -269,5 +284,7 @@ void pm_gather_sources(pm_gather *gather, pm_compose *compose)
                     : gathers   ? ask_indirect_gathered
                                 : ask_indirect_seen,
         .global = has_global ? ask_global_or_go_on : NULL,
+        .volume = has_media ? ask_volume : NULL,
+        .haze = has_media ? ask_haze : NULL,
     };
 }

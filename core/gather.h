@@ -9,9 +9,16 @@
 #ifndef PM_GATHER_H
 #define PM_GATHER_H
 
+#include "beams.h"
 #include "compose.h"
 #include "direct.h"
 #include "estimate.h"
+
+/// How the volume map is asked.
+typedef enum {
+    PM_MEDIA_BEAMS, // one query a stretch (beams.h)
+    PM_MEDIA_MARCH, // an estimate a step (media.h)
+} pm_media_query;
 
 /// How a picture's light is looked up.
 typedef struct {
@@ -20,6 +27,8 @@ typedef struct {
     uint32_t light_samples; // shadow rays to each area light, a pixel
     uint32_t spp;           // eye samples a pixel that these are dealt out to
     bool caustics_global;   // the caustic-marked photons of the global map feed that layer
+    pm_media_query media;
+    double step; // [m] of a march; 0: pm_media_step()
 } pm_gather_settings;
 
 typedef struct {
@@ -28,6 +37,7 @@ typedef struct {
     pm_gather_settings settings;
     const pm_photon_map *irradiance; // at places of the global map (irradiance.h), or NULL
     const pm_shadow_maps *shadows;   // or NULL
+    const pm_beams *beams;           // over the volume map, where it is asked by beams; or NULL
     pm_neighbour *scratch;           // settings.estimate.k entries, at least PM_SHADOW_K
     // set by pm_gather_sources():
     double irradiance_reach; // of these places
@@ -44,7 +54,8 @@ typedef struct {
 
 /// Points compose->ask at `gather` and the maps that it has. To be called when these are there.
 /// Indirect light exists when there is a global map, caustics when there is a caustic map, or,
-/// with `caustics_global`, a global map that holds some.
+/// with `caustics_global`, a global map that holds some. What media scatter exists where the
+/// scene has media: once scattered without a map, more often with a volume map.
 void pm_gather_sources(pm_gather *gather, pm_compose *compose);
 
 #endif

@@ -16,24 +16,24 @@ typedef enum {
     PM_LAYER_COUNT,
 } pm_layer;
 
-/// The surface events of a path, read from the eye. Zero-initialised: none.
+/// The events of a path, read from the eye. Zero-initialised: none.
 typedef struct {
     uint32_t count;
-    uint32_t specular;   // S events in a row at its far end
-    bool first_specular; // the event next to the eye is S
-    bool later_diffuse;  // one beyond it is D
+    uint32_t specular; // S events in a row at its far end
+    char first;        // 'S', 'D' or 'V': the event next to the eye
+    bool later_spread; // one beyond it is D or V
 } pm_layer_events;
 
-/// The same path with one more event at its far end.
-static inline pm_layer_events pm_layer_event(pm_layer_events events, bool specular)
+/// The same path with one more event at its far end, 'S', 'D' or 'V'.
+static inline pm_layer_events pm_layer_event(pm_layer_events events, char scatter)
 {
     if (events.count == 0) {
-        events.first_specular = specular;
-    } else if (!specular) {
-        events.later_diffuse = true;
+        events.first = scatter;
+    } else if (scatter != 'S') {
+        events.later_spread = true;
     }
     events.count++;
-    events.specular = specular ? events.specular + 1 : 0;
+    events.specular = scatter == 'S' ? events.specular + 1 : 0;
     return events;
 }
 
@@ -43,13 +43,16 @@ static inline pm_layer pm_layer_of(pm_layer_events events)
     if (events.count == 0) {
         return PM_LAYER_EMISSION;
     }
-    if (events.first_specular) {
+    if (events.first == 'S') {
         return PM_LAYER_SPECULAR;
+    }
+    if (events.first == 'V') {
+        return PM_LAYER_VOLUME;
     }
     if (events.count == 1) {
         return PM_LAYER_DIRECT;
     }
-    return events.later_diffuse ? PM_LAYER_INDIRECT : PM_LAYER_CAUSTIC;
+    return events.later_spread ? PM_LAYER_INDIRECT : PM_LAYER_CAUSTIC;
 }
 
 /// The layer's name, as options and channels ("caustic.R") spell it.

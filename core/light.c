@@ -1,6 +1,7 @@
 // A density per area becomes one per solid angle by distance^2 / cos at the light.
 #include "light.h"
 
+#include "medium.h"
 #include "shape.h"
 
 double pm_light_falloff(const pm_light *light, double cosine)
@@ -97,20 +98,20 @@ bool pm_light_sample_from(const pm_scene *scene, const pm_light *light, pm_vec3 
     return false;
 }
 
-bool pm_light_blocked(const pm_intersector *world, const pm_hit *at, int medium,
+double pm_light_clear(const pm_intersector *world, pm_vec3 from, int medium,
                       const pm_light_sample *sample)
 {
-    pm_ray ray = pm_hit_ray(at, sample->direction, 0.0, medium);
+    pm_ray ray = {from, sample->direction, HUGE_VAL, 0.0, medium};
     if (!sample->endless) {
-        // From the offset origin the light lies in a slightly other direction.
-        pm_vec3 way = pm_vec_sub(sample->target, ray.origin);
+        // From a hit's offset origin the light lies in a slightly other direction.
+        pm_vec3 way = pm_vec_sub(sample->target, from);
         ray.t_max = pm_vec_length(way);
         if (ray.t_max == 0.0) {
-            return false;
+            return 1.0;
         }
         ray.direction = pm_vec_scale(way, 1.0 / ray.t_max);
     }
-    return pm_blocked(world, &ray);
+    return pm_medium_clear(world, &ray);
 }
 
 double pm_light_pdf(const pm_scene *scene, const pm_hit *hit, pm_vec3 from, pm_vec3 direction)

@@ -25,9 +25,12 @@ typedef struct {
 bool pm_light_sample_from(const pm_scene *scene, const pm_light *light, pm_vec3 from,
                           const double u[2], pm_light_sample *sample);
 
-/// Whether a surface other than null stands between `at` and the light drawn from there.
-/// @param medium  that the shadow ray starts in
-bool pm_light_blocked(const pm_intersector *world, const pm_hit *at, int medium,
+/// Share of the light drawn that gets to `from`: 0 where a surface other than null stands
+/// between, else what media on the way let through; 1 in clear air.
+///
+/// @param from    where the shadow ray starts: a point in a medium, or pm_hit_leave() of a hit
+/// @param medium  that it starts in
+double pm_light_clear(const pm_intersector *world, pm_vec3 from, int medium,
                       const pm_light_sample *sample);
 
 /// Density [1/sr] with which pm_light_sample_from() draws the point `hit` of an area light, as

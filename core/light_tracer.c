@@ -58,8 +58,8 @@ static pm_layer layer_of(const pm_flight *flight, bool specular)
 {
     pm_layer_events events = {
         .count = flight->events + 1,
-        .first_specular = specular,
-        .later_diffuse = flight->diffuse,
+        .first = specular ? 'S' : 'D',
+        .later_spread = flight->diffuse,
     };
     return pm_layer_of(events);
 }
@@ -116,7 +116,7 @@ static bool meet(const pm_intersector *world, pm_flight *flight, pm_hit *hit, pm
     while (pm_closest(world, &flight->ray, hit)) {
         pm_vec3 direction = flight->ray.direction;
         double wavelength = flight->ray.wavelength;
-        pm_material_lobes(world->scene, hit, pm_vec_negate(direction), wavelength, lobes);
+        pm_material_lobes(world->scene, hit, &flight->ray, lobes);
         if (!lobes->passes) {
             return true;
         }

@@ -6,6 +6,8 @@
 #include "fresnel.h"
 #include "microfacet.h"
 
+#include <stddef.h>
+
 static double square(double x)
 {
     return x * x;
@@ -26,10 +28,21 @@ static void add_lobe(pm_lobes *lobes, pm_lobe_type type, bool specular, pm_spect
     lobes->diffuse = lobes->diffuse || !specular;
 }
 
-static void add_dielectric(pm_lobes *lobes, const pm_material *material, bool inside)
+/// Index inside glass, for light of this wavelength.
+static double index_of(const pm_material *material, double wavelength)
 {
-    lobes->eta =
-        inside ? material->int_ior / material->ext_ior : material->ext_ior / material->int_ior;
+    if (material->glass == NULL) {
+        return material->int_ior;
+    }
+    return pm_glass_index(material->glass, wavelength > 0.0 ? wavelength : PM_GLASS_D_LINE);
+}
+
+static void add_dielectric(pm_lobes *lobes, const pm_material *material, bool inside,
+                           double wavelength)
+{
+    double within = index_of(material, wavelength);
+    lobes->eta = inside ? within / material->ext_ior : material->ext_ior / within;
+    lobes->disperses = material->glass != NULL && wavelength == 0.0;
     double reflected =
         pm_fresnel_dielectric(cosine_of(lobes, lobes->wi), lobes->eta, &lobes->cos_beyond);
     add_lobe(lobes, PM_LOBE_REFLECT, true,
@@ -86,14 +99,15 @@ static void add_plastic(pm_lobes *lobes, const pm_material *material)
              pm_spectrum_scale(material->reflectance, through * pm_coat_gain(material)));
 }
 
-static void add_lobes(pm_lobes *lobes, const pm_material *material, bool behind)
+static void add_lobes(pm_lobes *lobes, const pm_material *material, bool behind,
+                      double wavelength)
 {
     switch (material->type) {
     case PM_BSDF_DIFFUSE:
         add_lobe(lobes, PM_LOBE_DIFFUSE, false, material->reflectance);
         break;
     case PM_BSDF_DIELECTRIC:
-        add_dielectric(lobes, material, behind);
+        add_dielectric(lobes, material, behind, wavelength);
         break;
     case PM_BSDF_THIN_DIELECTRIC:
         add_pane(lobes, material);
@@ -112,25 +126,29 @@ static void add_lobes(pm_lobes *lobes, const pm_material *material, bool behind)
     }
 }
 
-void pm_material_lobes(const pm_scene *scene, const pm_hit *hit, pm_vec3 wi, double wavelength,
+void pm_material_lobes(const pm_scene *scene, const pm_hit *hit, const pm_ray *along,
                        pm_lobes *lobes)
 {
-    (void)wavelength; // glasses that disperse will ask for it
     const pm_shape *shape = &scene->shapes[hit->shape];
+    pm_vec3 wi = pm_vec_negate(along->direction);
     bool behind = pm_vec_dot(wi, hit->normal) < 0.0;
     *lobes = (pm_lobes){
         .wi = wi,
         .normal = behind ? pm_vec_negate(hit->normal) : hit->normal,
         .eta = 1.0,
-        .medium_here = behind ? shape->interior : shape->exterior,
-        .medium_beyond = behind ? shape->exterior : shape->interior,
+        .medium_here = along->medium,
+        .medium_beyond = along->medium,
     };
+    if (shape->boundary) {
+        lobes->medium_here = behind ? shape->interior : shape->exterior;
+        lobes->medium_beyond = behind ? shape->exterior : shape->interior;
+    }
     int index = shape->material[behind];
     if (index == PM_NONE) {
         return;
     }
     lobes->material = &scene->materials[index];
-    add_lobes(lobes, lobes->material, behind);
+    add_lobes(lobes, lobes->material, behind, along->wavelength);
 }
 
 static pm_vec3 cosine_direction(pm_vec3 normal, pm_rng *rng)

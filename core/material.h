@@ -34,8 +34,10 @@ typedef struct {
 typedef struct {
     pm_lobe lobe[PM_LOBES_MAX];
     int count;
-    bool diffuse;                // one of them is a D lobe: photons are stored here
-    bool passes;                 // a null surface: the ray goes on, nothing happens
+    bool diffuse; // one of them is a D lobe: photons are stored here
+    bool passes;  // a null surface: the ray goes on, nothing happens
+    bool
+        disperses; // what it does hangs on the wavelength, and the ray that met it has none yet
     const pm_material *material; // on this side, or NULL
     pm_vec3 wi;
     pm_vec3 normal;    // unit geometric normal on the side of wi
@@ -55,10 +57,12 @@ typedef struct {
     int medium;   // that the ray along wo runs in
 } pm_scatter;
 
-/// The lobes at `hit` for light arriving from, or leaving towards, `wi`.
-/// Albedos are the same for power and for radiance; the n^2 factor of radiance is in
-/// pm_scatter.
-void pm_material_lobes(const pm_scene *scene, const pm_hit *hit, pm_vec3 wi, double wavelength,
+/// The lobes at `hit` for light arriving along the ray `along`, or leaving back along it.
+///
+/// Its wavelength chooses the index of a glass that disperses; without one it is that of the
+/// yellow d line. Its medium is on both sides of a surface that parts no media. Albedos are the
+/// same for power and for radiance; the n^2 factor of radiance is in pm_scatter.
+void pm_material_lobes(const pm_scene *scene, const pm_hit *hit, const pm_ray *along,
                        pm_lobes *lobes);
 
 /// A direction from lobe number `which`.

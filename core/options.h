@@ -42,12 +42,22 @@ typedef struct {
     bool precompute;      // --precompute on
     bool everywhere;      // --projection off
     uint64_t light_paths; // --light-paths, of the reference; 0: none
+    bool media_march;     // --media march
+    double march_step;    // --march-step [m]; 0: its own rule
     int width, height;    // --size; 0: the scene's
     int only;             // a pm_layer; -1: all
     const char *preset;   // NULL: none
     bool explain;         // say the plan and stop
     bool check_scene;     // render --check: validate the scene and stop
     double exposure;      // stops, of --png
+
+    // progressive
+    bool progressive;
+    uint32_t passes;        // --passes
+    bool gather_given;      // --gather was on the command line
+    bool spp_given;         // --spp, likewise
+    const char *checkpoint; // FILE, or NULL
+    bool resume;
 
     // places
     bool has_at, has_normal;

@@ -241,7 +241,7 @@ static pm_status prepare(const pm_intersector *world, pm_map_kind kind,
         .world = world,
         .source = source,
         .rule = settings->rule,
-        .caustic_only = kind == PM_MAP_CAUSTIC,
+        .map = kind,
     };
     pm_caps caps = pm_caps_of(world->scene, settings->max_bounces);
     tracing->max_bounces = caps.bounces;

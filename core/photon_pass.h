@@ -30,7 +30,7 @@ typedef struct {
     double emit_cpu, trace_cpu, store_cpu; // [s] summed over the threads
 } pm_pass_report;
 
-/// Emits, traces, stores and scales the map of `kind` (global or caustic). Where no light sends
+/// Emits, traces, stores and scales the map of `kind`. Where no light sends
 /// any power nothing is emitted, and the map is empty.
 ///
 /// @param map     [out] trimmed and scaled; untouched unless PM_OK

@@ -67,7 +67,7 @@ static bool meet(const pm_reference_eye *eye, pm_eye_path *path, pm_meeting *at,
     while (pm_closest(eye->world, &path->ray, &at->hit)) {
         pm_vec3 direction = path->ray.direction;
         double wavelength = path->ray.wavelength;
-        pm_material_lobes(scene, &at->hit, pm_vec_negate(direction), wavelength, &at->lobes);
+        pm_material_lobes(scene, &at->hit, &path->ray, &at->lobes);
         see(scene, path, at, sum);
         if (!at->lobes.passes) {
             return true;
@@ -115,13 +115,15 @@ static void ask_light(const pm_reference_eye *eye, const pm_light *light,
     }
     pm_spectrum response[2];
     respond(&at->lobes, &drawn, response);
-    bool dark = pm_spectrum_is_black(response[0]) && pm_spectrum_is_black(response[1]);
-    if (dark || pm_light_blocked(eye->world, &at->hit, at->lobes.medium_here, &drawn)) {
+    if (pm_spectrum_is_black(response[0]) && pm_spectrum_is_black(response[1])) {
         return;
     }
-    for (int specular = 0; specular < 2; specular++) {
+    pm_vec3 from = pm_hit_leave(&at->hit, drawn.direction);
+    double clear = pm_light_clear(eye->world, from, at->lobes.medium_here, &drawn);
+    for (int specular = 0; specular < 2 && clear > 0.0; specular++) {
         pm_spectrum radiance = pm_spectrum_mul(response[specular], drawn.radiance);
-        add(sum, pm_layer_event(path->events, specular), path->weight, radiance);
+        add(sum, pm_layer_event(path->events, specular ? 'S' : 'D'), path->weight,
+            pm_spectrum_scale(radiance, clear));
     }
 }
 
@@ -164,7 +166,8 @@ static pm_status turn(const pm_reference_eye *eye, pm_eye_path *path, const pm_m
     pm_material_sample(&at->lobes, outcome.lobe, rng, &scatter);
     path->weight =
         pm_spectrum_scale(pm_spectrum_mul(outcome.power, scatter.weight), scatter.radiance);
-    path->events = pm_layer_event(path->events, at->lobes.lobe[outcome.lobe].specular);
+    bool specular = at->lobes.lobe[outcome.lobe].specular;
+    path->events = pm_layer_event(path->events, specular ? 'S' : 'D');
     path->ray = pm_hit_ray(&at->hit, scatter.wo, path->ray.wavelength, scatter.medium);
     path->from = at->hit.position;
     path->pdf = scatter.pdf;

@@ -23,6 +23,9 @@ typedef struct {
     bool everywhere;     // no projection maps
     bool direct_photons; // shadow photons decide where shadow rays are needless
     bool precompute;     // irradiance at photon positions for the gather (irradiance.h)
+    uint32_t pass; // number of a progressive pass, from 0: other random numbers throughout
+    double reach[PM_MAP_COUNT]; // [m] > 0: all photons of this map nearer than that count, in
+                                // place of k (progressive.h); 0: the estimate's own rule
 } pm_render_settings;
 
 pm_render_settings pm_render_defaults(void);
@@ -39,6 +42,8 @@ typedef struct {
     pm_projections aim[PM_MAP_COUNT];     // how each map's photons were aimed
     pm_photon_map irradiance;             // with `precompute`; empty otherwise
     double irradiance_seconds;
+    pm_beams beams; // over the volume map, where it is asked by beams
+    double beams_seconds;
     pm_shadow_maps shadows; // with `direct_photons`
     double shadow_seconds;
 } pm_render_maps;

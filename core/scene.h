@@ -5,6 +5,7 @@
 #ifndef PM_SCENE_H
 #define PM_SCENE_H
 
+#include "glass.h"
 #include "spectrum.h"
 #include "vec.h"
 
@@ -42,10 +43,12 @@ typedef struct {
     pm_spectrum specular_reflectance;   // factor on what a smooth lobe reflects
     pm_spectrum specular_transmittance; // factor on what a dielectric transmits
     double int_ior, ext_ior;            // dielectric: inside is opposite to the normal
-    bool perfect_mirror;                // conductor with material "none": reflects everything
-    pm_spectrum eta, k;                 // conductor otherwise, relative to vacuum
-    pm_microfacet_kind microfacet;      // rough ones
-    double alpha;                       // roughness, 1e-4 to 10; up to 0.1 its lobe counts as S
+    const pm_glass *glass;         // dielectric that disperses: its index replaces int_ior;
+                                   // else NULL
+    bool perfect_mirror;           // conductor with material "none": reflects everything
+    pm_spectrum eta, k;            // conductor otherwise, relative to vacuum
+    pm_microfacet_kind microfacet; // rough ones
+    double alpha;                  // roughness, 1e-4 to 10; up to 0.1 its lobe counts as S
     // Of a plastic's coat, filled in by pm_material_prepare():
     double coat[PM_COSINE_TABLE]; // rough: share of light from outside that gets in, over its
                                   // cosine
@@ -70,6 +73,9 @@ typedef struct {
     bool flipped;
     int material[2]; // index for the side of the normal and the side behind; PM_NONE absorbs
     int light;       // index of the area light on it, or PM_NONE
+    bool
+        boundary; // parts media: `interior` and `exterior` say what is behind and before it,
+                  // PM_NONE for nothing. Else the same medium is on both sides, whichever it is
     int interior, exterior; // index of the medium behind and before, or PM_NONE
     double area;            // [m^2]
     double reach;           // largest |coordinate| of any of its points; hits take their own
@@ -126,12 +132,13 @@ typedef struct {
     int medium;                 // that it stands in, or PM_NONE
 } pm_camera;
 
-/// Homogeneous medium. The reader refuses media for now; signatures carry them already.
+/// Homogeneous medium.
 typedef struct {
-    const char *id;
-    double sigma_t; // extinction [1/m]
-    pm_spectrum albedo;
-    double g; // Henyey-Greenstein mean cosine; 0 isotropic
+    const char *id; // as in the file, or TYPE@LINE
+    int line;
+    double sigma_t;     // extinction [1/m], >= 0
+    pm_spectrum albedo; // scattering over extinction, in [0, 1]
+    double g;           // Henyey-Greenstein mean cosine, in (-1, 1); 0 isotropic
 } pm_medium;
 
 typedef struct pm_scene {

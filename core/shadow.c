@@ -48,7 +48,7 @@ static pm_status send(const pm_intersector *world, const pm_start *start, pm_pho
     pm_hit hit;
     while (pm_closest(world, &ray, &hit)) {
         pm_lobes lobes;
-        pm_material_lobes(world->scene, &hit, pm_vec_negate(ray.direction), 0.0, &lobes);
+        pm_material_lobes(world->scene, &hit, &ray, &lobes);
         if (lobes.diffuse) {
             pm_deposit deposit = deposit_at(start, &ray, &hit, &lobes);
             deposit.first = lit;

@@ -1,8 +1,9 @@
 // Lab 2. Photons travel: what they meet takes part of them, and Russian roulette decides which
-// part of the rest goes on, so that one photon stays one photon.
+// part of the rest goes on, so that one photon stays one photon. In a medium it may collide on
+// the way; glass that disperses makes it take one wavelength.
 //
 // Invariant: the expected power carried on by each lobe is the power arriving times its albedo,
-// channel by channel.
+// channel by channel; over all wavelengths taken, the expected power is the one before.
 #ifndef PM_TRACE_H
 #define PM_TRACE_H
 
@@ -31,15 +32,18 @@ typedef enum {
 } pm_event_kind;
 
 /// One thing that happened to a photon, in the order it happened. Pointers last for the call.
+/// Power goes `arriving`, `entering`, `chosen`, `carried`.
 typedef struct {
     pm_event_kind kind;
     char scatter;           // 'S', 'D' or 'V' by what was chosen; 0 when the photon ended
     uint32_t bounce;        // events before this one
     const pm_hit *hit;      // NULL when escaped or in a medium
     const pm_lobes *lobes;  // NULL without a surface
+    int medium;             // index of the medium that it collided in, or PM_NONE
     pm_vec3 from, position; // the photon flew from .. to .. (escaped: position is `from`)
     pm_vec3 direction;      // that it travelled in, unit
     pm_spectrum arriving;   // power before
+    pm_spectrum entering;   // power before roulette: another one where a wavelength was taken
     pm_spectrum chosen;     // power after roulette, before the sampled direction's own weight
     pm_spectrum carried;    // power that goes on; 0 when the photon ended here
 } pm_event;
@@ -57,7 +61,8 @@ typedef struct {
     pm_roulette_rule rule;
     uint32_t max_bounces;  // events of one photon
     uint32_t max_specular; // S events in a row
-    bool caustic_only;     // deposit LS+D only, and stop at the first D event
+    pm_map_kind map;       // which deposits are handed over; those of a caustic map end with
+                           // the first event that is not S
     pm_trace_sink sink;
 } pm_tracing;
 
@@ -73,9 +78,14 @@ pm_status pm_trace_roulette(pm_spectrum power, const pm_lobe *lobes, int count,
 
 /// Follows `count` photons to their ends, one after the other.
 ///
-/// Every meeting with a surface that has a D lobe is handed to the sink with the arriving
-/// power, before roulette, the first one included. Null surfaces are passed. The back of a
-/// one-sided surface absorbs and deposits nothing.
+/// Every meeting with a surface that has a D lobe (for a volume map: every collision in a
+/// medium) is handed to the sink with the arriving power, before roulette, the first one
+/// included. Null surfaces are passed. The back of a one-sided surface absorbs and deposits
+/// nothing.
+///
+/// Numbers are drawn at bounce n + 1 after n events: the depth of the next collision, if the
+/// way leads into a medium; a wavelength, at the second and later times that one is needed; the
+/// roulette; the direction.
 ///
 /// @return what the sink returned, if it was not PM_OK
 pm_status pm_trace_photons(const pm_tracing *tracing, const pm_start *starts, uint32_t count);

@@ -32,7 +32,7 @@ pm_vertex pm_pictures_meet(const pm_scenes *s, pm_vec3 from, pm_vec3 direction)
     pm_ray ray = {from, direction, HUGE_VAL, 0.0, PM_NONE};
     pm_vertex at = {.vertex = 1, .from = from};
     CHECK(pm_closest(&s->world, &ray, &at.hit));
-    pm_material_lobes(&s->scene, &at.hit, pm_vec_negate(direction), 0.0, &at.lobes);
+    pm_material_lobes(&s->scene, &at.hit, &ray, &at.lobes);
     return at;
 }
 

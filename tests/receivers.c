@@ -9,7 +9,8 @@ void pm_receivers_meet(const pm_scenes *s, pm_vec3 wi, pm_hit *hit, pm_lobes *lo
 {
     pm_ray ray = {pm_vec_scale(wi, 0.01), pm_vec_negate(wi), HUGE_VAL, 0.0, PM_NONE};
     CHECK(pm_closest(&s->world, &ray, hit) && hit->shape == 0);
-    pm_material_lobes(&s->scene, hit, wi, 0.0, lobes);
+    pm_ray along = {.direction = pm_vec_negate(wi), .medium = PM_NONE};
+    pm_material_lobes(&s->scene, hit, &along, lobes);
 }
 
 double pm_receivers_direct(const pm_scenes *s, const pm_hit *hit, const pm_lobes *lobes,

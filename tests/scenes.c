@@ -271,6 +271,7 @@ void pm_scenes_sheet(pm_scenes *s, int front, int back)
 {
     pm_shape shape = pm_scenes_square(2.0, 0.0, false);
     shape.exterior = 0;
+    shape.boundary = true;
     shape.interior = 1;
     pm_scenes_add(s, shape, front, back);
     pm_scenes_ready(s);
@@ -280,7 +281,8 @@ pm_lobes pm_scenes_lobes(const pm_scenes *s, pm_vec3 wi)
 {
     pm_hit hit = {.normal = pm_vec(0.0, 0.0, 1.0), .offset = PM_OFFSET};
     pm_lobes lobes;
-    pm_material_lobes(&s->scene, &hit, wi, 0.0, &lobes);
+    pm_ray along = {.direction = pm_vec_negate(wi), .medium = PM_NONE};
+    pm_material_lobes(&s->scene, &hit, &along, &lobes);
     return lobes;
 }
 

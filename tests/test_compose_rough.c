@@ -130,7 +130,8 @@ static void a_vertex_knows_the_ray_that_met_it(void)
     CHECK_NEAR(d.lamp.from.z, 1.0, 1e-12); // the rough mirror
     pm_hit hit = {.normal = down, .shape = 1};
     pm_lobes lobes;
-    pm_material_lobes(&d.s.scene, &hit, down, 0.0, &lobes);
+    pm_ray along = {.direction = pm_vec_negate(down), .medium = PM_NONE};
+    pm_material_lobes(&d.s.scene, &hit, &along, &lobes);
     double pdf = pm_material_pdf(&lobes, 0, pm_vec_negate(d.lamp.lobes.wi));
     CHECK(pdf > 0.0);
     CHECK_NEAR(d.lamp.pdf, pdf, 1e-9 * pdf);

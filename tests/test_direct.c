@@ -15,7 +15,7 @@ static void look_down(const pm_scenes *s, pm_vec3 above, pm_hit *hit, pm_lobes *
 {
     pm_ray ray = {above, pm_vec(0.0, 0.0, -1.0), HUGE_VAL, 0.0, PM_NONE};
     CHECK(pm_closest(&s->world, &ray, hit));
-    pm_material_lobes(&s->scene, hit, pm_vec(0.0, 0.0, 1.0), 0.0, lobes);
+    pm_material_lobes(&s->scene, hit, &ray, lobes);
 }
 
 /// Irradiance [W/m^2], from the radiance that a surface of albedo 1/2 sends up.

@@ -56,7 +56,7 @@ static void visit(const pm_scenes *s, const pm_shadow_maps *maps, int i, double 
     pm_hit hit;
     pm_lobes lobes;
     CHECK(pm_closest(&s->world, &ray, &hit));
-    pm_material_lobes(&s->scene, &hit, pm_vec(0.0, 0.0, 1.0), 0.0, &lobes);
+    pm_material_lobes(&s->scene, &hit, &ray, &lobes);
     pm_neighbour scratch[PM_SHADOW_K];
     pm_direct_query query = {.world = &s->world, .samples = POINTS, .step = 1};
     value[0] = pm_direct(&query, &hit, &lobes).c[0];
@@ -148,7 +148,7 @@ static void glossy_lamps_are_shared_out_alike(void)
     pm_lobes lobes;
     pm_ray ray = {pm_vec(0.1, 0.0, 0.5), pm_vec(0.0, 0.0, -1.0), HUGE_VAL, 0.0, PM_NONE};
     CHECK(pm_closest(&s.world, &ray, &hit));
-    pm_material_lobes(&s.scene, &hit, pm_vec(0.0, 0.0, 1.0), 0.0, &lobes);
+    pm_material_lobes(&s.scene, &hit, &ray, &lobes);
     pm_neighbour scratch[PM_SHADOW_K];
     pm_direct_query rays = {.world = &s.world, .samples = 8, .step = 1};
     pm_direct_query photons = rays;

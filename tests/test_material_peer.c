@@ -28,7 +28,8 @@ static pm_lobes lobes_of(const pm_scene *scene, pm_vec3 wi)
 {
     pm_hit hit = {.normal = pm_vec(0.0, 0.0, 1.0), .offset = PM_OFFSET};
     pm_lobes lobes;
-    pm_material_lobes(scene, &hit, wi, 0.0, &lobes);
+    pm_ray along = {.direction = pm_vec_negate(wi), .medium = PM_NONE};
+    pm_material_lobes(scene, &hit, &along, &lobes);
     return lobes;
 }
 

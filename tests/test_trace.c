@@ -210,7 +210,7 @@ static void caustic_pass_keeps_the_marked(void)
         runs[only] = (deposit_list){calloc(COUNT, sizeof(pm_deposit)), 0, COUNT};
         CHECK(runs[only].list != NULL);
         pm_tracing tracing = pm_ledger_open(&s, &l);
-        tracing.caustic_only = only;
+        tracing.map = only ? PM_MAP_CAUSTIC : PM_MAP_GLOBAL;
         tracing.sink = (pm_trace_sink){&runs[only], keep_caustic, NULL};
         pm_ledger_trace(&s, &tracing, COUNT);
     }
@@ -233,7 +233,7 @@ static void caustic_pass_ends_at_diffuse(void)
     pm_ledger l;
     balls_scene(&s);
     pm_tracing tracing = pm_ledger_open(&s, &l);
-    tracing.caustic_only = true;
+    tracing.map = PM_MAP_CAUSTIC;
     pm_ledger_trace(&s, &tracing, 20000);
     CHECK(l.deposits == l.caustic && l.first == 0 && l.done > 1000);
     CHECK(l.absorbed + l.done == 20000);
@@ -241,7 +241,7 @@ static void caustic_pass_ends_at_diffuse(void)
 
     globe_scene(&s); // nothing specular: nothing is caustic
     tracing = pm_ledger_open(&s, &l);
-    tracing.caustic_only = true;
+    tracing.map = PM_MAP_CAUSTIC;
     pm_ledger_trace(&s, &tracing, 20000);
     CHECK(l.deposits == 0);
     pm_scenes_free(&s);

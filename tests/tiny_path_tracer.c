@@ -98,7 +98,7 @@ static void follow(const pm_intersector *world, tiny_path *path, pm_rng *rng,
             return;
         }
         pm_lobes lobes;
-        pm_material_lobes(world->scene, &hit, pm_vec_negate(path->ray.direction), 0.0, &lobes);
+        pm_material_lobes(world->scene, &hit, &path->ray, &lobes);
         CHECK(!lobes.passes);
         see_lamp(world->scene, &hit, path, layer);
         goes_on = turn(&hit, &lobes, rng, path);

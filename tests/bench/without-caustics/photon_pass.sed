@@ -1,1 +1,1 @@
-/\.caustic_only = /d
+# Nothing differs: the kind of map is all that tracing is told.
