@@ -36,6 +36,7 @@ static void meet(pm_audit *audit, int shape, pm_spectrum albedo, char scatter, u
                       .hit = &hit,
                       .lobes = &lobes,
                       .arriving = arriving,
+                      .entering = arriving,
                       .chosen = chosen,
                       .carried = chosen};
     pm_audit_event(audit, NULL, &event);
@@ -45,7 +46,8 @@ static void end(pm_audit *audit, pm_event_kind kind, uint32_t bounce, pm_spectru
 {
     pm_hit hit = {.shape = 2};
     pm_lobes lobes = lobes_of(pm_gray(0.5));
-    pm_event event = {.kind = kind, .bounce = bounce, .arriving = arriving};
+    pm_event event = {
+        .kind = kind, .bounce = bounce, .arriving = arriving, .entering = arriving};
     if (kind != PM_EVENT_ESCAPED) {
         event.hit = &hit;
         event.lobes = &lobes;
