@@ -10,6 +10,7 @@
 #define AT(field) offsetof(pm_options, field)
 #define MANY 9007199254740992.0 // 2^53: counts stay exact where they meet doubles
 #define UINT32_ABOVE 4294967295.0
+#define PASSES_MOST 268435455.0 // 2^28 - 1: what random numbers tell apart (rng.h)
 
 static const pm_option table[] = {
     {"n", "n", PM_OPTION_COUNT, AT(photons), 0, 1, MANY, "N",
@@ -44,9 +45,12 @@ static const pm_option table[] = {
     {"kernel-constants", "kernel-constants", PM_OPTION_CHOICE, AT(estimate.constants), 0, 0, 0,
      "unbiased|lecture", "lecture: 0.918 in the Gaussian, and k photons in place of k - 1",
      NULL},
-    {"gather", "gather", PM_OPTION_COUNT32, AT(gather), 0, 0, 1e6, "N",
-     "directions of a final gather; 0: the global map is seen directly", NULL},
-    {"spp", "spp", PM_OPTION_COUNT32, AT(spp), 0, 1, 1e6, "N", "samples of a pixel", NULL},
+    {"gather", "gather", PM_OPTION_COUNT32, AT(gather), AT(gather_given), 0, 1e6, "N",
+     "directions of a final gather; 0: the global map is seen directly, as --progressive does "
+     "unless told",
+     NULL},
+    {"spp", "spp", PM_OPTION_COUNT32, AT(spp), AT(spp_given), 1, 1e6, "N",
+     "samples of a pixel; with --progressive in each pass, 1 unless told", NULL},
     {"direct", "direct", PM_OPTION_SWITCH, AT(direct_photons), 0, 0, 0, "rays|photons",
      "direct light by shadow rays alone, or by shadow photons (as many as the global map has, "
      "sent besides) and rays where these differ",
@@ -57,6 +61,19 @@ static const pm_option table[] = {
      "irradiance at photon positions, for gather rays to look up", NULL},
     {"projection", "projection", PM_OPTION_SWITCH, AT(everywhere), 0, 0, 0, "on|off",
      "photons are sent where they count, or everywhere", NULL},
+    {"media", "media", PM_OPTION_SWITCH, AT(media_march), 0, 0, 0, "beams|march",
+     "how the volume map is asked: once for a whole ray, or step by step", NULL},
+    {"march-step", "march-step", PM_OPTION_POSITIVE, AT(march_step), 0, 0, 1e30, "M",
+     "step of --media march [m], above 0",
+     "half a mean free path, at most a fortieth of the photons' box"},
+    {"progressive", "progressive", PM_OPTION_FLAG, AT(progressive), 0, 0, 0, "",
+     "the mean of many passes with new photons and ever smaller radii", NULL},
+    {"passes", "passes", PM_OPTION_COUNT32, AT(passes), 0, 1, PASSES_MOST, "N",
+     "passes of --progressive", NULL},
+    {"checkpoint", "checkpoint", PM_OPTION_TEXT, AT(checkpoint), 0, 0, 0, "FILE",
+     "keeps what the passes so far came to, so that --resume can go on from it", "none"},
+    {"resume", "resume", PM_OPTION_FLAG, AT(resume), 0, 0, 0, "",
+     "go on where the file of --checkpoint was left", NULL},
     {"light-paths", "light-paths", PM_OPTION_COUNT, AT(light_paths), 0, 0, MANY, "N",
      "paths from lights of no extent to the camera, for what eye paths cannot find", NULL},
     {"view", "view", PM_OPTION_SWITCH, AT(view_photons), 0, 0, 0, "full|photons",

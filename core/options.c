@@ -42,6 +42,7 @@ pm_options pm_options_defaults(void)
                      .constants = PM_CONSTANTS_UNBIASED},
         .gather = 64,
         .spp = 4,
+        .passes = 16,
         .only = -1,
         .runs = 1,
         .depth = 5,
@@ -270,6 +271,39 @@ static void check_photon_counts(parser *p, pm_options *options)
     }
 }
 
+/// What has no meaning without --progressive, and what has none with it.
+static void check_progressive(parser *p, const pm_options *options)
+{
+    static const char *const parts[] = {"passes", "checkpoint", "resume"};
+    for (int i = 0; i < 3; i++) {
+        if (!options->progressive && find_setting(p, parts[i]) != NULL) {
+            add_fault(p, "--%s belongs to --progressive, which is not given", parts[i]);
+        }
+    }
+    if (options->resume && options->checkpoint == NULL) {
+        add_fault(p, "--resume needs --checkpoint FILE, to go on from");
+    }
+    if (options->progressive && options->map_count > 0 && find_setting(p, "map") != NULL) {
+        add_fault(p, "--progressive traces new photons in each pass: --map cannot be given");
+    }
+    if (options->progressive && options->stored > 0) {
+        add_fault(p,
+                  "--progressive emits the same number in each pass, and --preset %s fills "
+                  "maps: add -n N",
+                  options->preset);
+    }
+    if (options->progressive && options->view_photons) {
+        add_fault(p, "--progressive makes pictures, not dots: --view photons cannot be given");
+    }
+}
+
+static void check_march(parser *p, const pm_options *options)
+{
+    if (!options->media_march && find_setting(p, "march-step") != NULL) {
+        add_fault(p, "--march-step belongs to --media march, which is not given");
+    }
+}
+
 static void check_needs(parser *p)
 {
     for (int i = 0; i < p->taken_count; i++) {
@@ -309,6 +343,8 @@ pm_status pm_options_parse(int argc, char **argv, const pm_options_program *prog
     apply_settings(&p, &parsed);
     if (!parsed.help) {
         check_photon_counts(&p, &parsed);
+        check_progressive(&p, &parsed);
+        check_march(&p, &parsed);
         check_needs(&p);
         check_positionals(&p, &parsed);
     }

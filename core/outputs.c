@@ -13,7 +13,7 @@ typedef struct {
     const char *path; // NULL: not given
 } output;
 
-enum { OUTPUTS = 5 };
+enum { OUTPUTS = 6 };
 
 typedef struct {
     const pm_options *options;
@@ -74,6 +74,27 @@ static pm_status check_output(const check *c, const output *one)
     return PM_OK;
 }
 
+/// What was begun is gone on with, not begun anew; and what goes on must be there.
+static pm_status check_checkpoint(const check *c)
+{
+    const char *path = c->options->checkpoint;
+    struct stat status;
+    bool there = path != NULL && stat(path, &status) == 0;
+    if (path == NULL || there == c->options->resume) {
+        return PM_OK;
+    }
+    if (there) {
+        return pm_status_fail(PM_EINPUT,
+                              "%s: --checkpoint %s is there already: --resume goes on from it, "
+                              "or name another",
+                              c->program, path);
+    }
+    return pm_status_fail(PM_EINPUT,
+                          "%s: --checkpoint %s is not there to resume from: leave out --resume "
+                          "to begin it",
+                          c->program, path);
+}
+
 static void add_fault(check *c)
 {
     size_t used = strlen(c->faults);
@@ -86,12 +107,16 @@ pm_status pm_outputs_check(const pm_options *options, const char *program)
 {
     check c = {.options = options,
                .program = program,
-               .outputs = {{"-o", options->output},
+               .outputs = {{"--checkpoint", options->checkpoint},
+                           {"-o", options->output},
                            {"--png", options->png},
                            {"--map", options->difference},
                            {"--dump", options->dump},
                            {"--report", options->report}}};
-    pm_status status = PM_OK;
+    pm_status status = check_checkpoint(&c);
+    if (status != PM_OK) {
+        add_fault(&c);
+    }
     for (int i = 0; i < OUTPUTS; i++) {
         if (c.outputs[i].path != NULL) {
             pm_status one = check_output(&c, &c.outputs[i]);

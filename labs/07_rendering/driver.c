@@ -19,9 +19,11 @@ static const pm_options_program program = {
     .positional_least = 1,
     .positional_most = 1,
     .options =
-        "o png exposure size spp photons n global-photons caustic-photons gather k r shape"
-        " flatness filter kernel-constants direct caustics precompute projection preset"
-        " packing roulette max-bounces view only map explain check report",
+        "o png exposure size spp photons n global-photons caustic-photons volume-photons gather"
+        " k r shape flatness filter kernel-constants direct caustics media march-step "
+        "precompute"
+        " projection progressive passes checkpoint resume preset packing roulette max-bounces"
+        " view only map explain check report",
     .notes =
         "-o or --png must be given. -o writes an EXR file with the layers direct, specular,\n"
         "caustic, indirect, volume and emission, which add up to R G B, and depth, normal,\n"
@@ -49,8 +51,11 @@ static pm_render_settings settings_of(const pm_options *options)
     settings.max_bounces = options->max_bounces;
     settings.unpacked = options->unpacked;
     settings.light.estimate = options->estimate;
-    settings.light.rays = options->gather;
-    settings.light.spp = options->spp;
+    bool quick = options->progressive; // a pass is one of many
+    settings.light.rays = quick && !options->gather_given ? 0 : options->gather;
+    settings.light.spp = quick && !options->spp_given ? 1 : options->spp;
+    settings.light.media = options->media_march ? PM_MEDIA_MARCH : PM_MEDIA_BEAMS;
+    settings.light.step = options->march_step;
     settings.light.caustics_global = options->caustics_global;
     settings.only = options->only;
     settings.view_photons = options->view_photons;
