@@ -7,8 +7,11 @@
 
 #define PM_GLASS_D_LINE 587.5618 // [nm] the yellow helium line that catalogues quote n_d at
 
-/// n^2 = 1 + sum of b_i w^2 / (w^2 - c_i), with the wavelength w and the roots of c in um. The
-/// index is relative to the air around it.
+/// n^2 = 1 + sum of b_i w^2 / (w^2 - c_i), with the wavelength w and the roots of c in um.
+///
+/// Catalogues give n relative to air. It is taken for a material's int_ior as it stands, and
+/// ext_ior is what the scene file says: a file that wants the catalogue's angles to the last
+/// digit sets ext_ior to 1.
 typedef struct {
     const char *name; // as a scene file spells it
     int terms;
