@@ -16,6 +16,8 @@ void pm_scenes_begin(pm_scenes *s)
         .materials = s->materials,
         .shapes = s->shapes,
         .lights = s->lights,
+        .media = s->media,
+        .camera = {.medium = PM_NONE},
     };
 }
 
@@ -222,6 +224,25 @@ int pm_scenes_sky(pm_scenes *s, pm_spectrum radiance)
     return add_light(
         s, (pm_light){
                .type = PM_LIGHT_CONSTANT, .id = "sky", .shape = PM_NONE, .emitted = radiance});
+}
+
+int pm_scenes_medium(pm_scenes *s, double sigma_t, pm_spectrum albedo, double g)
+{
+    static const char *const ids[PM_SCENES_MEDIA] = {"fog", "smoke", "water", "milk"};
+    int index = s->scene.medium_count++;
+    CHECK(index < PM_SCENES_MEDIA);
+    s->media[index] =
+        (pm_medium){.id = ids[index], .sigma_t = sigma_t, .albedo = albedo, .g = g};
+    return index;
+}
+
+int pm_scenes_bound(pm_scenes *s, pm_shape shape, int interior, int exterior)
+{
+    shape.boundary = true;
+    shape.interior = interior;
+    shape.exterior = exterior;
+    int null = pm_scenes_null(s);
+    return pm_scenes_add(s, shape, null, null);
 }
 
 static void measure(pm_scene *scene)

@@ -13,7 +13,12 @@
 
 #include "material.h"
 
-enum { PM_SCENES_SHAPES = 24, PM_SCENES_MATERIALS = 12, PM_SCENES_LIGHTS = 12 };
+enum {
+    PM_SCENES_SHAPES = 24,
+    PM_SCENES_MATERIALS = 12,
+    PM_SCENES_LIGHTS = 12,
+    PM_SCENES_MEDIA = 4,
+};
 
 /// Fixed in memory from begin to free: `scene` points into it.
 typedef struct {
@@ -22,6 +27,7 @@ typedef struct {
     pm_shape shapes[PM_SCENES_SHAPES];
     pm_material materials[PM_SCENES_MATERIALS];
     pm_light lights[PM_SCENES_LIGHTS];
+    pm_medium media[PM_SCENES_MEDIA];
 } pm_scenes;
 
 void pm_scenes_begin(pm_scenes *s);
@@ -69,6 +75,13 @@ int pm_scenes_sun(pm_scenes *s, pm_vec3 direction, pm_spectrum irradiance);
 int pm_scenes_spot(pm_scenes *s, pm_vec3 position, pm_vec3 direction, const double cone[2],
                    pm_spectrum intensity);
 int pm_scenes_sky(pm_scenes *s, pm_spectrum radiance);
+
+/// Adds a medium and returns its index. Lights and the camera stand outside all media; a test
+/// sets `medium` of those that do not.
+int pm_scenes_medium(pm_scenes *s, double sigma_t, pm_spectrum albedo, double g);
+
+/// Adds a shape that parts media and does nothing else to light; PM_NONE: no medium there.
+int pm_scenes_bound(pm_scenes *s, pm_shape shape, int interior, int exterior);
 
 /// Bounds, radius, flux of suns and skies, ray queries.
 void pm_scenes_ready(pm_scenes *s);
