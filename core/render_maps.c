@@ -27,6 +27,7 @@ static pm_status trace_map(const pm_intersector *world, const pm_render_settings
     uint64_t most = settings->stored * GIVE_UP_AFTER;
     pm_pass_settings pass = {
         .seed = settings->seed,
+        .pass = settings->pass,
         .count = settings->stored == 0 ? maps->photons[kind] : most,
         .stored = settings->stored,
         .rule = settings->roulette,
@@ -57,7 +58,8 @@ static pm_status make_shadows(const pm_intersector *world, const pm_render_setti
         return PM_OK;
     }
     double start = pm_seconds_now();
-    PM_TRY(pm_shadow_make(world, settings->seed, maps->shadow_photons, &maps->shadows));
+    pm_shadow_run run = {settings->seed, settings->pass, maps->shadow_photons};
+    PM_TRY(pm_shadow_make(world, &run, &maps->shadows));
     maps->shadow_seconds = pm_seconds_now() - start;
     return PM_OK;
 }

@@ -139,10 +139,12 @@ static uint64_t even_part(uint64_t count, uint64_t place, uint64_t parts)
 }
 
 /// The map of light number `light`, alone in the pass.
-static pm_status make_one(const pm_intersector *world, uint32_t seed, int light,
+static pm_status make_one(const pm_intersector *world, const pm_shadow_run *run, int light,
                           const uint64_t *share, pm_progress *progress, pm_photon_map *map)
 {
-    pm_rng_source source = {seed, PM_STREAM_SHADOW, (uint32_t)light};
+    // The lights of a pass are told apart as passes are.
+    uint32_t place = run->pass * (uint32_t)world->scene->light_count + (uint32_t)light;
+    pm_rng_source source = {run->seed, PM_STREAM_SHADOW, place};
     shadow_pass pass = {
         .world = world,
         .emission = {world->scene, source, share[light], share, NULL},
@@ -152,19 +154,19 @@ static pm_status make_one(const pm_intersector *world, uint32_t seed, int light,
     return share[light] == 0 ? PM_OK : make_map(&pass);
 }
 
-static pm_status make_maps(const pm_intersector *world, uint32_t seed, uint64_t count,
+static pm_status make_maps(const pm_intersector *world, const pm_shadow_run *run,
                            uint64_t *share, pm_shadow_maps *maps)
 {
     const pm_scene *scene = world->scene;
     uint64_t parts = count_throwing(scene);
     uint64_t place = 0;
     pm_status status = PM_OK;
-    pm_progress progress = pm_progress_begin("shadows", count);
+    pm_progress progress = pm_progress_begin("shadows", run->count);
     for (int i = 0; i < scene->light_count && status == PM_OK; i++) {
         maps->map[i] = (pm_photon_map){.kind = PM_MAP_GLOBAL, .scale = 1.0};
         if (parts > 0 && throws_shadow(&scene->lights[i])) {
-            share[i] = even_part(count, place++, parts);
-            status = make_one(world, seed, i, share, &progress, &maps->map[i]);
+            share[i] = even_part(run->count, place++, parts);
+            status = make_one(world, run, i, share, &progress, &maps->map[i]);
             share[i] = 0;
         }
     }
@@ -172,7 +174,7 @@ static pm_status make_maps(const pm_intersector *world, uint32_t seed, uint64_t 
     return status;
 }
 
-pm_status pm_shadow_make(const pm_intersector *world, uint32_t seed, uint64_t count,
+pm_status pm_shadow_make(const pm_intersector *world, const pm_shadow_run *run,
                          pm_shadow_maps *maps)
 {
     size_t lights = (size_t)world->scene->light_count;
@@ -181,7 +183,7 @@ pm_status pm_shadow_make(const pm_intersector *world, uint32_t seed, uint64_t co
     pm_status status =
         made.map == NULL || share == NULL
             ? PM_FAIL(PM_ENOMEM, "no memory for the shadow maps of %d lights", made.light_count)
-            : make_maps(world, seed, count, share, &made);
+            : make_maps(world, run, share, &made);
     free(share);
     if (status != PM_OK) {
         made.light_count = made.map == NULL ? 0 : made.light_count;

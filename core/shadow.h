@@ -23,13 +23,20 @@ typedef struct {
     int light_count;
 } pm_shadow_maps;
 
-/// Sends `count` photons from the lights, shared equally among those with power, on through
-/// everything but null surfaces (glass throws shadow: what it lets through is a caustic).
-/// The same for any number of threads.
+/// How many are sent, by which random numbers: other passes, others throughout.
+typedef struct {
+    uint32_t seed;
+    uint32_t pass;
+    uint64_t count;
+} pm_shadow_run;
+
+/// Sends the photons of `run` from the lights, shared equally among those with power, on
+/// through everything but null surfaces (glass throws shadow: what it lets through is a
+/// caustic). The same for any number of threads.
 ///
 /// @param maps  [out] balanced; free with pm_shadow_free() when PM_OK
 /// @return PM_ENOMEM; PM_ELIMIT when a map would be too large; PM_ESTOPPED on SIGINT
-pm_status pm_shadow_make(const pm_intersector *world, uint32_t seed, uint64_t count,
+pm_status pm_shadow_make(const pm_intersector *world, const pm_shadow_run *run,
                          pm_shadow_maps *maps);
 void pm_shadow_free(pm_shadow_maps *maps);
 

@@ -26,7 +26,7 @@ static void add_lamp(pm_scenes *s)
 static void make(pm_scenes *s, uint64_t count, pm_shadow_maps *maps)
 {
     pm_scenes_ready(s);
-    CHECK_OK(pm_shadow_make(&s->world, 1, count, maps));
+    CHECK_OK(pm_shadow_make(&s->world, &(pm_shadow_run){.seed = 1, .count = count}, maps));
 }
 
 static void done(pm_scenes *s, pm_shadow_maps *maps)

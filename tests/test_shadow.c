@@ -33,7 +33,7 @@ static void add_lamp(pm_scenes *s)
 static const pm_photon_map *make(pm_scenes *s, uint64_t count, pm_shadow_maps *maps)
 {
     pm_scenes_ready(s);
-    CHECK_OK(pm_shadow_make(&s->world, 1, count, maps));
+    CHECK_OK(pm_shadow_make(&s->world, &(pm_shadow_run){.seed = 1, .count = count}, maps));
     CHECK(maps->light_count == s->scene.light_count);
     return &maps->map[0];
 }
@@ -176,7 +176,8 @@ static void threads_change_no_byte(void)
     pm_shadow_maps maps[3];
     for (int i = 0; i < 3; i++) {
         omp_set_num_threads(threads[i]);
-        CHECK_OK(pm_shadow_make(&s.world, 3, 9000, &maps[i]));
+        CHECK_OK(
+            pm_shadow_make(&s.world, &(pm_shadow_run){.seed = 3, .count = 9000}, &maps[i]));
         for (int l = 0; l < maps[0].light_count; l++) {
             const pm_photon_map *a = &maps[0].map[l];
             const pm_photon_map *b = &maps[i].map[l];
@@ -185,8 +186,12 @@ static void threads_change_no_byte(void)
         }
     }
     pm_shadow_maps other;
-    CHECK_OK(pm_shadow_make(&s.world, 4, 9000, &other));
+    CHECK_OK(pm_shadow_make(&s.world, &(pm_shadow_run){.seed = 4, .count = 9000}, &other));
     CHECK(memcmp(other.map[0].photons, maps[0].map[0].photons, sizeof(pm_photon)) != 0);
+    pm_shadow_free(&other);
+    CHECK_OK(pm_shadow_make(&s.world, &(pm_shadow_run){3, 1, 9000}, &other));
+    CHECK(memcmp(other.map[0].photons, maps[0].map[0].photons, sizeof(pm_photon)) != 0);
+    CHECK(memcmp(other.map[0].photons, maps[0].map[1].photons, sizeof(pm_photon)) != 0);
     pm_shadow_free(&other);
     for (int i = 0; i < 3; i++) {
         pm_shadow_free(&maps[i]);
@@ -201,7 +206,8 @@ static void an_interrupt_stops_it(void)
     pm_interrupt_catch();
     raise(SIGINT);
     pm_shadow_maps maps = {0};
-    CHECK_FAILS(pm_shadow_make(&s.world, 1, 100000, &maps), PM_ESTOPPED, "");
+    CHECK_FAILS(pm_shadow_make(&s.world, &(pm_shadow_run){.seed = 1, .count = 100000}, &maps),
+                PM_ESTOPPED, "");
     CHECK(maps.map == NULL && maps.light_count == 0);
     pm_scenes_free(&s);
 }
