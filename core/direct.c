@@ -10,6 +10,7 @@
 
 #include "lattice.h"
 #include "light.h"
+#include "medium.h"
 #include "shape.h"
 
 #include <stddef.h>
@@ -163,24 +164,27 @@ static pm_spectrum meet_lamp(const pm_scene *scene, const receiver *to, const pm
     return pm_spectrum_scale(lamp, pm_direct_weight(way->pdf, other));
 }
 
-/// What comes along a drawn direction: of each lamp on the way its share, and the sky in full.
-/// Lamps of null surface shine and let pass.
+/// What comes along a drawn direction: of each lamp on the way its share, and the sky in full;
+/// media take theirs. Lamps of null surface shine and let pass.
 static pm_spectrum look_along(pm_direct_query *query, const receiver *to, const drawn *way)
 {
     const pm_scene *scene = query->world->scene;
-    pm_vec3 direction = way->direction;
-    pm_ray ray = pm_hit_ray(to->hit, direction, 0.0, to->lobes->medium_here);
+    pm_ray ray = pm_hit_ray(to->hit, way->direction, 0.0, to->lobes->medium_here);
     pm_spectrum sum = pm_gray(0.0);
+    double left = 1.0; // share of what comes from here on that media let through
     pm_hit met;
     query->rays++;
     while (pm_closest(query->world, &ray, &met)) {
-        sum = pm_spectrum_add(sum, meet_lamp(scene, to, &met, way));
+        left *= pm_medium_share(scene, ray.medium, met.t);
+        pm_spectrum lamp = meet_lamp(scene, to, &met, way);
+        sum = pm_spectrum_add(sum, pm_spectrum_scale(lamp, left));
         if (!pm_shape_is_null(scene, &scene->shapes[met.shape])) {
             return sum;
         }
-        ray = pm_hit_ray(&met, direction, 0.0, to->lobes->medium_here);
+        ray = pm_medium_beyond(scene, &ray, &met);
     }
-    return pm_spectrum_add(sum, pm_light_sky(scene));
+    left *= pm_medium_share(scene, ray.medium, HUGE_VAL);
+    return pm_spectrum_add(sum, pm_spectrum_scale(pm_light_sky(scene), left));
 }
 
 /// Lamps' share and sky by the directions of glossy lobe `which`.

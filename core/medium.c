@@ -2,7 +2,7 @@
 // near +-1; neither has a special case.
 #include "medium.h"
 
-#include "material.h"
+#include "shape.h"
 
 double pm_medium_depth(const pm_medium *medium, double length)
 {
@@ -47,33 +47,54 @@ pm_vec3 pm_medium_turn(const pm_medium *medium, pm_vec3 direction, pm_rng *rng)
     return pm_vec_normalize(pm_frame_to_world(&frame, local));
 }
 
+double pm_medium_share(const pm_scene *scene, int medium, double length)
+{
+    return medium == PM_NONE ? 1.0 : pm_medium_transmittance(&scene->media[medium], length);
+}
+
+pm_ray pm_medium_beyond(const pm_scene *scene, const pm_ray *ray, const pm_hit *hit)
+{
+    const pm_shape *shape = &scene->shapes[hit->shape];
+    int medium = ray->medium;
+    if (shape->boundary) {
+        bool inward = pm_vec_dot(ray->direction, hit->normal) < 0.0;
+        medium = inward ? shape->interior : shape->exterior;
+    }
+    return pm_hit_ray(hit, ray->direction, ray->wavelength, medium);
+}
+
+/// Turns a ray that starts anew beyond a null surface, a little aside, to where it was to end.
+/// False when it is there.
+static bool aim(pm_ray *ray, pm_vec3 target)
+{
+    pm_vec3 way = pm_vec_sub(target, ray->origin);
+    if (pm_vec_dot(way, ray->direction) <= 0.0) {
+        return false;
+    }
+    ray->t_max = pm_vec_length(way);
+    ray->direction = pm_vec_scale(way, 1.0 / ray->t_max);
+    return true;
+}
+
 /// Through null surfaces, from medium to medium.
 static double clear_through_media(const pm_intersector *world, pm_ray ray)
 {
     const pm_scene *scene = world->scene;
-    double depth = 0.0;
-    double left = ray.t_max;
-    for (;;) {
-        pm_hit hit;
-        bool met = pm_closest(world, &ray, &hit);
-        if (ray.medium != PM_NONE) {
-            depth += pm_medium_depth(&scene->media[ray.medium], met ? hit.t : ray.t_max);
-        }
-        if (!met) {
-            return exp(-depth);
-        }
-        pm_lobes lobes;
-        pm_material_lobes(scene, &hit, &ray, &lobes);
-        if (!lobes.passes) {
+    bool endless = ray.t_max == HUGE_VAL;
+    pm_vec3 target = pm_vec_along(ray.origin, ray.direction, endless ? 0.0 : ray.t_max);
+    double share = 1.0;
+    pm_hit hit;
+    while (share > 0.0 && pm_closest(world, &ray, &hit)) {
+        if (!pm_shape_is_null(scene, &scene->shapes[hit.shape])) {
             return 0.0;
         }
-        left -= hit.t;
-        if (!(left > 0.0)) {
-            return exp(-depth);
+        share *= pm_medium_share(scene, ray.medium, hit.t);
+        ray = pm_medium_beyond(scene, &ray, &hit);
+        if (!endless && !aim(&ray, target)) {
+            return share;
         }
-        ray = pm_hit_ray(&hit, ray.direction, ray.wavelength, lobes.medium_beyond);
-        ray.t_max = left;
     }
+    return share * pm_medium_share(scene, ray.medium, ray.t_max);
 }
 
 double pm_medium_clear(const pm_intersector *world, const pm_ray *ray)

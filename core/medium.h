@@ -27,6 +27,13 @@ double pm_medium_phase(const pm_medium *medium, double cosine);
 /// A way to go on after a collision on the way `direction`; both unit.
 pm_vec3 pm_medium_turn(const pm_medium *medium, pm_vec3 direction, pm_rng *rng);
 
+/// Share of light that gets through `length` [m] of medium number `medium` of the scene;
+/// all of it where that is PM_NONE.
+double pm_medium_share(const pm_scene *scene, int medium, double length);
+
+/// `ray` beyond the null surface that it met at `hit`: without end, in the medium there.
+pm_ray pm_medium_beyond(const pm_scene *scene, const pm_ray *ray, const pm_hit *hit);
+
 /// Share of light that gets along `ray` to its t_max: 0 where a surface other than null stands,
 /// else what all media on the way let through.
 double pm_medium_clear(const pm_intersector *world, const pm_ray *ray);
