@@ -3,7 +3,12 @@
 //
 // Invariant: photons count whose nearest point of the ray lies between its two ends, and whose
 // distance d from it is below their radius r: with the kernel (3 / pi) (1 - d^2/r^2)^2 / r^2,
-// whose integral over the disc is 1.
+// whose integral over the disc is 1. So each photon hands out all its power whatever its radius
+// is, and an even field comes out right on average without a correction for k.
+//
+// Where a medium ends, balls reach over, and the march's (media.h) do as well: inside, a rim as
+// wide as a radius is too dark, for no photons lie beyond; where two media touch, each rim has
+// photons of the other, for a photon does not know its medium. Both fade with the radius.
 // @source Jarosz, Zwicker and Jensen, "The Beam Radiance Estimate for Volumetric Photon
 // Mapping", CGF 27(2), 2008
 #ifndef PM_BEAMS_H
@@ -11,23 +16,28 @@
 
 #include "estimate.h"
 
-/// A volume map made ready for rays: boxes over the photons' balls, one a node of its tree.
+/// A volume map made ready for rays: boxes around the photons' balls, nested as the map's tree.
 /// Zero-initialised: none.
 typedef struct {
     const pm_photon_map *map; // balanced, scaled; must outlive the beams
-    float *radius;            // of each photon [m]
-    float (*box)[6];          // low x y z, high x y z of each node and all below it
-    uint32_t largest;         // the photon of the largest radius
+    float (*ball)[4];         // x y z [m] and radius of each photon; 0: it does not count
+    float (*box)[6];  // low x y z, high x y z [m] of each node that has children: around
+                      // its ball and all below
+    uint32_t counted; // photons that count
 } pm_beams;
 
-/// Gives each photon of `map` a radius and builds the boxes, on all threads.
+/// Gives each photon of `map` a radius and builds the boxes; radii on all threads.
 ///
-/// @param radius  [m] > 0 of every photon; INFINITY: each its own, by the distance of its
-///                sqrt(k)-th neighbour widened to hold about k
+/// @param radius  [m] > 0 of every photon; INFINITY: each its own, the distance of its
+///                round(sqrt(k))-th neighbour. Fewer than k + 1 photons count as if k were all
+///                the others; one alone has no neighbour and does not count. Never below the
+///                spacing of float positions, where photons coincide
+/// @param skip    photons with one of these flag bits do not count, nor as neighbours
 /// @param out     [out] untouched unless PM_OK; free with pm_beams_free()
 /// @return PM_EINPUT when the map is not a balanced and scaled volume map, the radius not > 0
-///         or k is 0; PM_ENOMEM
-pm_status pm_beams_make(const pm_photon_map *map, double radius, uint32_t k, pm_beams *out);
+///         as a float, or k is 0; PM_ENOMEM; PM_ESTOPPED on SIGINT
+pm_status pm_beams_make(const pm_photon_map *map, double radius, uint32_t k, uint16_t skip,
+                        pm_beams *out);
 void pm_beams_free(pm_beams *beams);
 
 /// What one query found.
@@ -38,10 +48,7 @@ typedef struct {
 } pm_beam;
 
 /// Radiance that photons in `medium` send back along `along`, between its start and its t_max
-/// (INFINITY: no end), attenuated on the way.
-///
-/// @param skip  photons with one of these flag bits are left out
-pm_beam pm_beams_query(const pm_beams *beams, const pm_medium *medium, const pm_ray *along,
-                       uint16_t skip);
+/// (INFINITY: no end), attenuated on the way. Direction unit. The same for any thread.
+pm_beam pm_beams_query(const pm_beams *beams, const pm_medium *medium, const pm_ray *along);
 
 #endif

@@ -8,6 +8,7 @@
 #include "look.h"
 #include "lookup.h"
 #include "media.h"
+#include "photon_map.h"
 
 #include <stddef.h>
 
@@ -16,22 +17,21 @@
 #define PLACE_GATHER 0x40000000u
 #define PLACE_DIRECT 0x20000000u
 #define PLACE_GLINT 0x30000000u
+#define PLACE_FOG 0x10000000u
 
-/// What a lattice's shift is for.
-enum { FOR_LIGHTS, FOR_GATHER, FOR_GLINT };
-
-static void lattice_shift(const pm_gather *gather, const pm_vertex *at, uint32_t purpose,
-                          double shift[2])
+static void lattice_shift(const pm_gather *gather, uint64_t pixel, uint32_t number,
+                          pm_gather_purpose purpose, double shift[2])
 {
-    uint32_t place = PLACE_LATTICE | at->vertex << 2 | purpose;
-    pm_rng rng = pm_rng_at(&gather->compose->source, at->pixel, place);
+    uint32_t place = PLACE_LATTICE | number << 2 | purpose;
+    pm_rng rng = pm_rng_at(&gather->compose->source, pixel, place);
     shift[0] = pm_rng_draw(&rng);
     shift[1] = pm_rng_draw(&rng);
 }
 
-static pm_rng sample_rng(const pm_gather *gather, const pm_vertex *at, uint32_t place)
+static pm_rng sample_rng(const pm_gather *gather, uint64_t pixel, uint32_t sample,
+                         uint32_t place)
 {
-    uint64_t index = at->pixel * gather->settings.spp + at->sample;
+    uint64_t index = pixel * gather->settings.spp + sample;
     return pm_rng_at(&gather->compose->source, index, place);
 }
 
@@ -75,20 +75,29 @@ static pm_direct_query query_of(const pm_gather *gather)
     };
 }
 
-/// The query of one eye sample, its light points shared out among all samples of the pixel.
-static pm_direct_query share_of(const pm_gather *gather, const pm_vertex *at, uint32_t purpose,
-                                uint32_t place)
+pm_direct_query pm_gather_share(const pm_gather *gather, uint64_t pixel, uint32_t sample,
+                                uint32_t number, pm_gather_purpose purpose)
 {
+    static const uint32_t place[] = {PLACE_DIRECT, PLACE_GATHER, PLACE_GLINT, PLACE_FOG};
     pm_direct_query query = query_of(gather);
     query.samples = per_sample(gather->settings.light_samples, gather->settings.spp);
-    query.first = at->sample;
+    query.first = sample;
     query.step = gather->settings.spp;
-    query.rng = sample_rng(gather, at, place | at->vertex);
-    lattice_shift(gather, at, purpose, query.shift);
+    query.rng = sample_rng(gather, pixel, sample, place[purpose] | number);
+    lattice_shift(gather, pixel, number, purpose, query.shift);
     return query;
 }
 
-static void count_rays(pm_gather *gather, const pm_direct_query *query)
+pm_direct_query pm_gather_single(const pm_gather *gather, pm_rng *rng)
+{
+    pm_direct_query query = query_of(gather);
+    query.shift[0] = pm_rng_draw(rng);
+    query.shift[1] = pm_rng_draw(rng);
+    query.rng = *rng;
+    return query;
+}
+
+void pm_gather_count(pm_gather *gather, const pm_direct_query *query)
 {
     gather->shadow_rays += query->rays;
     gather->shadow_spared += query->spared;
@@ -97,18 +106,20 @@ static void count_rays(pm_gather *gather, const pm_direct_query *query)
 static pm_status ask_direct(void *context, const pm_vertex *at, pm_spectrum *radiance)
 {
     pm_gather *gather = context;
-    pm_direct_query query = share_of(gather, at, FOR_LIGHTS, PLACE_DIRECT);
+    pm_direct_query query =
+        pm_gather_share(gather, at->pixel, at->sample, at->vertex, PM_GATHER_LIGHTS);
     *radiance = pm_direct(&query, &at->hit, &at->lobes);
-    count_rays(gather, &query);
+    pm_gather_count(gather, &query);
     return PM_OK;
 }
 
 static pm_status ask_glint(void *context, const pm_vertex *at, pm_spectrum *radiance)
 {
     pm_gather *gather = context;
-    pm_direct_query query = share_of(gather, at, FOR_GLINT, PLACE_GLINT);
+    pm_direct_query query =
+        pm_gather_share(gather, at->pixel, at->sample, at->vertex, PM_GATHER_GLINT);
     *radiance = pm_direct_glint(&query, &at->hit, &at->lobes);
-    count_rays(gather, &query);
+    pm_gather_count(gather, &query);
     return PM_OK;
 }
 
@@ -160,11 +171,12 @@ static pm_status ask_indirect_gathered(void *context, const pm_vertex *at,
         return PM_OK;
     }
     double shift[2];
-    lattice_shift(gather, at, FOR_GATHER, shift);
+    lattice_shift(gather, at->pixel, at->vertex, PM_GATHER_RAYS, shift);
     for (uint32_t i = 0; i < rays; i++) {
         double u[2];
         pm_lattice_point(shift, at->sample + spp * i, rays * spp, u);
-        pm_rng rng = sample_rng(gather, at, PLACE_GATHER + at->vertex * rays + i);
+        uint32_t place = PLACE_GATHER + at->vertex * rays + i;
+        pm_rng rng = sample_rng(gather, at->pixel, at->sample, place);
         pm_look along =
             lambertian ? pm_look_by_cosine(&at->lobes, u) : pm_look_by_lobe(&at->lobes, &rng);
         pm_spectrum one;
@@ -203,13 +215,10 @@ static pm_status ask_global(void *context, const pm_vertex *at, pm_rng *rng,
 /// LD at the near surface, one shadow ray for each light.
 static pm_spectrum near_direct(pm_gather *gather, const pm_vertex *at, pm_rng *rng)
 {
-    pm_direct_query query = query_of(gather);
-    query.shift[0] = pm_rng_draw(rng);
-    query.shift[1] = pm_rng_draw(rng);
-    query.rng = *rng;
+    pm_direct_query query = pm_gather_single(gather, rng);
     pm_spectrum radiance = pm_direct(&query, &at->hit, &at->lobes);
     *rng = query.rng;
-    count_rays(gather, &query);
+    pm_gather_count(gather, &query);
     return radiance;
 }
 
@@ -270,6 +279,9 @@ void pm_gather_sources(pm_gather *gather, pm_compose *compose)
     gather->marked = pm_lookup_has_marked(gather);
     if (gather->irradiance != NULL) {
         gather->irradiance_reach = pm_irradiance_reach(gather->irradiance);
+    }
+    if (gather->map[PM_MAP_VOLUME] != NULL) {
+        pm_photon_map_box(gather->map[PM_MAP_VOLUME], &gather->low, &gather->high);
     }
     compose->ask = (pm_compose_sources){
         .context = gather,

@@ -38,10 +38,12 @@ typedef struct {
     const pm_photon_map *irradiance; // at places of the global map (irradiance.h), or NULL
     const pm_shadow_maps *shadows;   // or NULL
     const pm_beams *beams;           // over the volume map, where it is asked by beams; or NULL
-    pm_neighbour *scratch;           // settings.estimate.k entries, at least PM_SHADOW_K
+    double reach[PM_MAP_COUNT];      // [m] > 0: all photons this near count, in place of k
+    pm_neighbour *scratch; // as many as any lookup's k (lookup.h), at least PM_SHADOW_K
     // set by pm_gather_sources():
     double irradiance_reach; // of these places
     bool marked;             // the global map has caustic-marked photons
+    pm_vec3 low, high;       // box around the volume map's photons
     // what the estimates in the global map used, summed since the user set them to 0; and what
     // was cut
     double radius_sum;
@@ -57,5 +59,26 @@ typedef struct {
 /// with `caustics_global`, a global map that holds some. What media scatter exists where the
 /// scene has media: once scattered without a map, more often with a volume map.
 void pm_gather_sources(pm_gather *gather, pm_compose *compose);
+
+/// What an eye sample asks its pixel's lights for. Shifts of lattices hang on it, and random
+/// numbers.
+typedef enum {
+    PM_GATHER_LIGHTS, // at a vertex
+    PM_GATHER_RAYS,
+    PM_GATHER_GLINT,
+    PM_GATHER_FOG, // along a stretch
+} pm_gather_purpose;
+
+/// The query of one eye sample at its vertex or stretch `number`, its light points shared out
+/// among all samples of the pixel.
+pm_direct_query pm_gather_share(const pm_gather *gather, uint64_t pixel, uint32_t sample,
+                                uint32_t number, pm_gather_purpose purpose);
+
+/// The query of one sample of each light, for a gather ray; draws from `rng`, and all later
+/// numbers are to be drawn from the query's.
+pm_direct_query pm_gather_single(const pm_gather *gather, pm_rng *rng);
+
+/// Takes over what a query counted.
+void pm_gather_count(pm_gather *gather, const pm_direct_query *query);
 
 #endif

@@ -105,6 +105,17 @@ void pm_photon_map_trim(pm_photon_map *map)
     map->capacity = map->count;
 }
 
+void pm_photon_map_box(const pm_photon_map *map, pm_vec3 *low, pm_vec3 *high)
+{
+    *low = *high = pm_vec(0.0, 0.0, 0.0);
+    for (uint32_t i = 0; i < map->count; i++) {
+        const float *at = map->photons[i].position;
+        pm_vec3 point = pm_vec((double)at[0], (double)at[1], (double)at[2]);
+        *low = i == 0 ? point : pm_vec_min(*low, point);
+        *high = i == 0 ? point : pm_vec_max(*high, point);
+    }
+}
+
 uint64_t pm_photon_map_bytes(const pm_photon_map *map)
 {
     size_t each = sizeof *map->photons + (map->unpacked ? sizeof *map->exact : 0);

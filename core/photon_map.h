@@ -21,6 +21,10 @@ pm_status pm_photon_map_append(pm_photon_map *map, const pm_photon_map *part);
 /// Gives back the room beyond `count`.
 void pm_photon_map_trim(pm_photon_map *map);
 
+/// The tight box around the photons; a map without photons has the origin.
+/// @param low, high  [out]
+void pm_photon_map_box(const pm_photon_map *map, pm_vec3 *low, pm_vec3 *high);
+
 /// Bytes held for photons.
 uint64_t pm_photon_map_bytes(const pm_photon_map *map);
 
