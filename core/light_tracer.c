@@ -2,23 +2,15 @@
 // so the picture does not depend on how many threads there are.
 #include "light_tracer.h"
 
-#include "camera.h"
 #include "chunks.h"
+#include "light_tracer_path.h"
 
 #include <stdlib.h>
-
-/// What one connection to the camera adds.
-typedef struct {
-    size_t place; // in the film
-    pm_spectrum radiance;
-} pm_splat;
 
 /// What one thread works in.
 typedef struct {
     pm_start starts[PM_CHUNK];
-    pm_splat *splat;
-    size_t count, room;
-    uint64_t cut;
+    pm_splats splats;
 } pm_splatter;
 
 /// What all threads share.
@@ -30,151 +22,6 @@ typedef struct {
     uint64_t cut;
 } pm_light_run;
 
-/// A light path on its way.
-typedef struct {
-    pm_ray ray;
-    pm_spectrum power;
-    uint32_t events, specular; // S events in a row
-    bool diffuse;              // a D event was among them
-} pm_flight;
-
-static pm_status push(pm_splatter *splatter, pm_splat splat)
-{
-    if (splatter->count == splatter->room) {
-        size_t room = splatter->room == 0 ? 4096 : 2 * splatter->room;
-        pm_splat *grown = realloc(splatter->splat, room * sizeof *grown);
-        if (grown == NULL) {
-            return PM_FAIL(PM_ENOMEM, "no memory for %zu connections to the camera", room);
-        }
-        splatter->splat = grown;
-        splatter->room = room;
-    }
-    splatter->splat[splatter->count++] = splat;
-    return PM_OK;
-}
-
-/// The layer of a path that comes to the camera after one more event, of this kind.
-static pm_layer layer_of(const pm_flight *flight, bool specular)
-{
-    pm_layer_events events = {
-        .count = flight->events + 1,
-        .first = specular ? 'S' : 'D',
-        .later_spread = flight->diffuse,
-    };
-    return pm_layer_of(events);
-}
-
-/// Adds what each lobe sends along `wo` to the camera, at the film's place of `pixel`.
-static pm_status splat_lobes(const pm_flight *flight, const pm_lobes *lobes, pm_vec3 wo,
-                             double factor, size_t pixel, pm_splatter *splatter)
-{
-    for (int i = 0; i < lobes->count; i++) {
-        pm_spectrum value = pm_material_value(lobes, i, wo);
-        if (pm_spectrum_is_black(value)) {
-            continue;
-        }
-        pm_spectrum radiance = pm_spectrum_scale(pm_spectrum_mul(flight->power, value), factor);
-        size_t layer = layer_of(flight, lobes->lobe[i].specular);
-        PM_TRY(push(splatter, (pm_splat){pixel * PM_LAYER_COUNT + layer, radiance}));
-    }
-    return PM_OK;
-}
-
-/// The connection to the camera, if it sees the point.
-static pm_status connect(const pm_light_run *run, const pm_flight *flight, const pm_hit *hit,
-                         const pm_lobes *lobes, pm_splatter *splatter)
-{
-    const pm_camera *camera = &run->tracing->world->scene->camera;
-    int x;
-    int y;
-    if (!pm_camera_pixel(camera, hit->position, &x, &y)) {
-        return PM_OK;
-    }
-    pm_vec3 way = pm_vec_sub(camera->position, hit->position);
-    double distance2 = pm_vec_dot(way, way);
-    pm_vec3 wo = pm_vec_scale(way, 1.0 / sqrt(distance2));
-    double cos_axis = -pm_vec_dot(wo, camera->forward);
-    double cosine = fabs(pm_vec_dot(wo, lobes->normal));
-    double factor = run->per_film * cosine / (distance2 * cos_axis * cos_axis * cos_axis);
-    size_t pixel = (size_t)y * (size_t)camera->width + (size_t)x;
-
-    size_t before = splatter->count;
-    PM_TRY(splat_lobes(flight, lobes, wo, factor, pixel, splatter));
-    pm_ray ray = pm_hit_ray(hit, wo, 0.0, lobes->medium_here);
-    way = pm_vec_sub(camera->position, ray.origin);
-    ray.t_max = pm_vec_length(way);
-    ray.direction = pm_vec_scale(way, 1.0 / ray.t_max);
-    if (splatter->count > before && pm_blocked(run->tracing->world, &ray)) {
-        splatter->count = before;
-    }
-    return PM_OK;
-}
-
-/// The next surface that is an event.
-static bool meet(const pm_intersector *world, pm_flight *flight, pm_hit *hit, pm_lobes *lobes)
-{
-    while (pm_closest(world, &flight->ray, hit)) {
-        pm_vec3 direction = flight->ray.direction;
-        double wavelength = flight->ray.wavelength;
-        pm_material_lobes(world->scene, hit, &flight->ray, lobes);
-        if (!lobes->passes) {
-            return true;
-        }
-        flight->ray = pm_hit_ray(hit, direction, wavelength, lobes->medium_beyond);
-    }
-    return false;
-}
-
-/// Goes on by one lobe. Writes whether it does: not after a first event that eye paths deal
-/// with.
-static pm_status turn(const pm_light_tracing *tracing, uint64_t photon, const pm_hit *hit,
-                      const pm_lobes *lobes, pm_flight *flight, bool *goes_on)
-{
-    pm_rng rng = pm_rng_at(&tracing->source, photon, flight->events + 1);
-    pm_roulette outcome;
-    PM_TRY(pm_trace_roulette(flight->power, lobes->lobe, lobes->count, tracing->rule, &rng,
-                             &outcome));
-    *goes_on = outcome.lobe != PM_NONE;
-    if (!*goes_on) {
-        return PM_OK;
-    }
-    pm_scatter scatter;
-    pm_material_sample(lobes, outcome.lobe, &rng, &scatter);
-    bool smooth = scatter.pdf == 0.0;
-    bool specular = lobes->lobe[outcome.lobe].specular;
-    bool wanted = flight->events > 0 || smooth || tracing->everything;
-    flight->power = pm_spectrum_mul(outcome.power, scatter.weight);
-    *goes_on = wanted && !pm_spectrum_is_black(flight->power);
-    flight->ray = pm_hit_ray(hit, scatter.wo, flight->ray.wavelength, scatter.medium);
-    flight->events++;
-    flight->specular = specular ? flight->specular + 1 : 0;
-    flight->diffuse = flight->diffuse || !specular;
-    return PM_OK;
-}
-
-static pm_status follow(const pm_light_run *run, const pm_start *start, pm_splatter *splatter)
-{
-    const pm_light_tracing *tracing = run->tracing;
-    pm_flight flight = {.ray = start->ray, .power = start->power};
-    pm_hit hit;
-    pm_lobes lobes;
-    for (bool goes_on = true; goes_on && meet(tracing->world, &flight, &hit, &lobes);) {
-        if (lobes.count == 0) {
-            return PM_OK;
-        }
-        if (flight.events >= tracing->caps.bounces ||
-            flight.specular >= tracing->caps.specular) {
-            splatter->cut++;
-            return PM_OK;
-        }
-        if (flight.events > 0 || tracing->everything) {
-            PM_TRY(connect(run, &flight, &hit, &lobes, splatter));
-        }
-        PM_TRY(turn(tracing, start->photon, &hit, &lobes, &flight, &goes_on));
-    }
-    return PM_OK;
-}
-
 static pm_status splatter_begin(const void *context, void **worker)
 {
     (void)context;
@@ -185,7 +32,7 @@ static pm_status splatter_begin(const void *context, void **worker)
 static void splatter_end(void *worker)
 {
     if (worker != NULL) {
-        free(((pm_splatter *)worker)->splat);
+        free(((pm_splatter *)worker)->splats.splat);
         free(worker);
     }
 }
@@ -194,11 +41,12 @@ static pm_status trace_chunk(const void *context, void *worker, uint64_t first, 
 {
     const pm_light_run *run = context;
     pm_splatter *splatter = worker;
-    splatter->count = 0;
-    splatter->cut = 0;
+    splatter->splats.count = 0;
+    splatter->splats.cut = 0;
     PM_TRY(pm_emit_photons(&run->emission, first, count, splatter->starts));
     for (uint32_t i = 0; i < count; i++) {
-        PM_TRY(follow(run, &splatter->starts[i], splatter));
+        PM_TRY(pm_light_tracer_path(run->tracing, run->per_film, &splatter->starts[i],
+                                    &splatter->splats));
     }
     return PM_OK;
 }
@@ -206,12 +54,12 @@ static pm_status trace_chunk(const void *context, void *worker, uint64_t first, 
 static pm_status take_chunk(void *context, const void *worker)
 {
     pm_light_run *run = context;
-    const pm_splatter *splatter = worker;
-    for (size_t i = 0; i < splatter->count; i++) {
-        pm_spectrum *pixel = &run->film[splatter->splat[i].place];
-        *pixel = pm_spectrum_add(*pixel, splatter->splat[i].radiance);
+    const pm_splats *splats = &((const pm_splatter *)worker)->splats;
+    for (size_t i = 0; i < splats->count; i++) {
+        pm_spectrum *pixel = &run->film[splats->splat[i].place];
+        *pixel = pm_spectrum_add(*pixel, splats->splat[i].radiance);
     }
-    run->cut += splatter->cut;
+    run->cut += splats->cut;
     return PM_OK;
 }
 

@@ -4,11 +4,13 @@
 // Invariant: a photon of power P [W] at a surface point x that the camera sees at the distance
 // r adds, to the pixel that shows x,
 //
-//     P f cos(x) / (r^2 cos^3(axis) A),  A = area of a pixel on the film at distance 1,
+//     P f cos(x) T / (r^2 cos^3(axis) A),  A = area of a pixel on the film at distance 1,
 //
-// where cos(x) is at the surface and cos(axis) between the axis of the camera and its ray: the
-// radiance P f cos(x) / dx over the part of the film on which dx is seen. Over all photons
-// emitted this is the mean radiance over the pixel that eye paths estimate too.
+// where cos(x) is at the surface, cos(axis) between the axis of the camera and its ray, and T
+// what media let through: the radiance P f cos(x) T / dx over the part of the film on which dx
+// is seen. A collision in a medium adds the same with albedo * phase function for f cos(x).
+// Over all photons emitted this is the mean radiance over the pixel that eye paths estimate
+// too.
 // @source Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997
 #ifndef PM_LIGHT_TRACER_H
 #define PM_LIGHT_TRACER_H

@@ -18,6 +18,10 @@
 _Static_assert(PM_REFERENCE_BLIND_ROOM <= sizeof((pm_reference_report *)0)->blind,
                "a report holds every sentence");
 
+/// Wavelengths of a pixel's samples step by this share of the range: the square root of 2 less
+/// 1, which keeps them apart from each other and from the lattice of the film.
+#define HUE_STEP 0.41421356237309505
+
 /// What all threads share.
 typedef struct {
     const pm_reference_settings *settings;
@@ -63,12 +67,14 @@ static pm_status sample_half(const pm_reference_pass *pass, int half, int x, int
     double shift[2];
     shift[0] = pm_rng_draw(&rng);
     shift[1] = pm_rng_draw(&rng);
+    double turn = pm_rng_draw(&rng);
     for (uint32_t i = 0; i < count; i++) {
         double u[2];
         pm_lattice_point(shift, i, count, u);
         pm_ray ray =
             pm_camera_ray(camera, (x + u[0]) / camera->width, (y + u[1]) / camera->height);
-        PM_TRY(pm_reference_path(&pass->eye, &ray, first + i, sum));
+        double hue = turn + HUE_STEP * i;
+        PM_TRY(pm_reference_path(&pass->eye, &ray, first + i, hue - floor(hue), sum));
     }
     return PM_OK;
 }
