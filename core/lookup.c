@@ -6,6 +6,23 @@
 
 #include <stddef.h>
 
+pm_estimate_settings pm_lookup_settings(const pm_estimate_settings *settings, double reach,
+                                        const pm_photon_map *map)
+{
+    pm_estimate_settings asked = *settings;
+    if (reach > 0.0) {
+        asked.radius = reach;
+        asked.k = map->count + 1;
+    }
+    return asked;
+}
+
+pm_estimate_settings pm_lookup_asked(const pm_gather *gather, pm_map_kind kind)
+{
+    return pm_lookup_settings(&gather->settings.estimate, gather->reach[kind],
+                              gather->map[kind]);
+}
+
 static pm_status look_up(pm_gather *gather, pm_map_kind kind,
                          const pm_estimate_settings *settings, const pm_vertex *at,
                          pm_estimate *found)
@@ -49,7 +66,8 @@ pm_status pm_lookup_global(pm_gather *gather, const pm_vertex *at, pm_lookup *en
     if (!covered) {
         const pm_photon_map *global = gather->map[PM_MAP_GLOBAL];
         pm_estimate_point point = {at->hit.position, at->lobes.normal};
-        PM_TRY(look_up(gather, PM_MAP_GLOBAL, &gather->settings.estimate, at, found));
+        pm_estimate_settings settings = pm_lookup_asked(gather, PM_MAP_GLOBAL);
+        PM_TRY(look_up(gather, PM_MAP_GLOBAL, &settings, at, found));
         unevenness = pm_fill_unevenness(global, gather->scratch, found, &point);
     }
     end->uneven = pm_fill_is_uneven(unevenness, found->found);
@@ -60,7 +78,7 @@ pm_status pm_lookup_global(pm_gather *gather, const pm_vertex *at, pm_lookup *en
 pm_status pm_lookup_indirect(pm_gather *gather, const pm_vertex *at, pm_spectrum *radiance)
 {
     pm_estimate found;
-    pm_estimate_settings settings = gather->settings.estimate;
+    pm_estimate_settings settings = pm_lookup_asked(gather, PM_MAP_GLOBAL);
     settings.skip = PM_PHOTON_FIRST | PM_PHOTON_CAUSTIC;
     PM_TRY(look_up(gather, PM_MAP_GLOBAL, &settings, at, &found));
     count(gather, &found);
@@ -71,7 +89,8 @@ pm_status pm_lookup_indirect(pm_gather *gather, const pm_vertex *at, pm_spectrum
 pm_status pm_lookup_caustic(pm_gather *gather, const pm_vertex *at, pm_spectrum *radiance)
 {
     pm_estimate found;
-    PM_TRY(look_up(gather, PM_MAP_CAUSTIC, &gather->settings.estimate, at, &found));
+    pm_estimate_settings settings = pm_lookup_asked(gather, PM_MAP_CAUSTIC);
+    PM_TRY(look_up(gather, PM_MAP_CAUSTIC, &settings, at, &found));
     *radiance = found.value;
     return PM_OK;
 }
@@ -80,7 +99,7 @@ pm_status pm_lookup_marked(pm_gather *gather, const pm_vertex *at, double reach,
                            pm_spectrum *radiance)
 {
     pm_estimate found;
-    pm_estimate_settings settings = gather->settings.estimate;
+    pm_estimate_settings settings = pm_lookup_asked(gather, PM_MAP_GLOBAL);
     settings.only = PM_PHOTON_CAUSTIC;
     settings.radius = pm_least(settings.radius, reach);
     PM_TRY(look_up(gather, PM_MAP_GLOBAL, &settings, at, &found));

@@ -5,6 +5,15 @@
 
 #include "gather.h"
 
+/// How `map` is asked: as `settings` say or, with a `reach` [m] > 0, for all its photons within
+/// that. As many as it holds at most, so a search never stops at k; its list is written only as
+/// far as photons are found.
+pm_estimate_settings pm_lookup_settings(const pm_estimate_settings *settings, double reach,
+                                        const pm_photon_map *map);
+
+/// The same for a map of `gather`, which must have it.
+pm_estimate_settings pm_lookup_asked(const pm_gather *gather, pm_map_kind kind);
+
 /// What the end of a gather ray finds.
 typedef struct {
     pm_estimate estimate; // its value is a radiance [W/(m^2 sr)]

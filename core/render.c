@@ -6,6 +6,7 @@
 #include "caps.h"
 #include "clock.h"
 #include "lattice.h"
+#include "lookup.h"
 #include "photon_dots.h"
 #include "pixel.h"
 #include "tiles.h"
@@ -31,10 +32,16 @@ typedef struct {
     uint64_t lookups;
 } pm_eye_worker;
 
-static uint32_t scratch_size(const pm_render_settings *settings)
+/// As many entries as the widest of all lookups may find.
+static uint32_t scratch_size(const pm_render_settings *settings, const pm_render_maps *maps)
 {
-    uint32_t k = settings->light.estimate.k;
-    return k > PM_SHADOW_K ? k : PM_SHADOW_K;
+    uint32_t size = PM_SHADOW_K;
+    for (int kind = 0; kind < PM_MAP_COUNT; kind++) {
+        pm_estimate_settings asked = pm_lookup_settings(
+            &settings->light.estimate, settings->reach[kind], &maps->map[kind]);
+        size = asked.k > size ? asked.k : size;
+    }
+    return size;
 }
 
 static void choose_layers(const pm_render_settings *settings, bool wanted[PM_LAYER_COUNT])
@@ -48,7 +55,7 @@ static void worker_set_up(const pm_eye_pass *pass, pm_eye_worker *worker)
 {
     const pm_render_settings *settings = pass->settings;
     worker->compose.world = pass->world;
-    worker->compose.source = (pm_rng_source){settings->seed, PM_STREAM_CAMERA, 0};
+    worker->compose.source = (pm_rng_source){settings->seed, PM_STREAM_CAMERA, settings->pass};
     worker->compose.rule = settings->roulette;
     worker->compose.splits = SPLITS;
     worker->compose.max_specular =
@@ -60,6 +67,7 @@ static void worker_set_up(const pm_eye_pass *pass, pm_eye_worker *worker)
     worker->gather.shadows = maps->shadows.light_count > 0 ? &maps->shadows : NULL;
     for (int kind = 0; kind < PM_MAP_COUNT; kind++) {
         worker->gather.map[kind] = maps->has[kind] ? &maps->map[kind] : NULL;
+        worker->gather.reach[kind] = settings->reach[kind];
     }
     pm_gather_sources(&worker->gather, &worker->compose);
 }
@@ -67,7 +75,7 @@ static void worker_set_up(const pm_eye_pass *pass, pm_eye_worker *worker)
 static pm_status worker_begin(const void *context, void **out)
 {
     const pm_eye_pass *pass = context;
-    uint32_t entries = scratch_size(pass->settings);
+    uint32_t entries = scratch_size(pass->settings, pass->maps);
     pm_eye_worker *worker = calloc(1, sizeof *worker);
     *out = worker;
     if (worker != NULL) {

@@ -81,6 +81,15 @@ bool pm_render_precomputes(const pm_render_settings *settings, const pm_render_m
 ///
 /// @param maps  [in, out] zeroed, or with maps given; free with pm_render_maps_free() in any
 /// case
+pm_status pm_render_trace_maps(const pm_intersector *world, const pm_render_settings *settings,
+                               pm_render_maps *maps);
+
+/// Makes what is looked up in place of these maps, or besides: shadow photons, irradiance,
+/// beams. Here settings->reach counts for the first time.
+pm_status pm_render_ready_maps(const pm_intersector *world, const pm_render_settings *settings,
+                               pm_render_maps *maps);
+
+/// Both, one after the other.
 pm_status pm_render_make_maps(const pm_intersector *world, const pm_render_settings *settings,
                               pm_render_maps *maps);
 void pm_render_maps_free(pm_render_maps *maps);

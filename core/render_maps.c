@@ -4,6 +4,7 @@
 #include "balance.h"
 #include "clock.h"
 #include "irradiance.h"
+#include "lookup.h"
 #include "photon_map.h"
 
 #define GIVE_UP_AFTER 100 // photons emitted for one that was to be stored
@@ -71,14 +72,16 @@ static pm_status make_irradiance(const pm_intersector *world,
         return PM_OK;
     }
     double start = pm_seconds_now();
-    PM_TRY(pm_irradiance_make(world, &maps->map[PM_MAP_GLOBAL], &settings->light.estimate,
-                              PM_IRRADIANCE_SPACING, &maps->irradiance));
+    const pm_photon_map *global = &maps->map[PM_MAP_GLOBAL];
+    pm_estimate_settings asked =
+        pm_lookup_settings(&settings->light.estimate, settings->reach[PM_MAP_GLOBAL], global);
+    PM_TRY(pm_irradiance_make(world, global, &asked, PM_IRRADIANCE_SPACING, &maps->irradiance));
     maps->irradiance_seconds = pm_seconds_now() - start;
     return PM_OK;
 }
 
-pm_status pm_render_make_maps(const pm_intersector *world, const pm_render_settings *settings,
-                              pm_render_maps *maps)
+pm_status pm_render_trace_maps(const pm_intersector *world, const pm_render_settings *settings,
+                               pm_render_maps *maps)
 {
     PM_TRY(pm_render_plan(world->scene, settings, maps));
     for (pm_map_kind kind = 0; kind < PM_MAP_COUNT; kind++) {
@@ -89,8 +92,21 @@ pm_status pm_render_make_maps(const pm_intersector *world, const pm_render_setti
             PM_TRY(balance_map(maps, kind));
         }
     }
+    return PM_OK;
+}
+
+pm_status pm_render_ready_maps(const pm_intersector *world, const pm_render_settings *settings,
+                               pm_render_maps *maps)
+{
     PM_TRY(make_shadows(world, settings, maps));
     return make_irradiance(world, settings, maps);
+}
+
+pm_status pm_render_make_maps(const pm_intersector *world, const pm_render_settings *settings,
+                              pm_render_maps *maps)
+{
+    PM_TRY(pm_render_trace_maps(world, settings, maps));
+    return pm_render_ready_maps(world, settings, maps);
 }
 
 void pm_render_maps_free(pm_render_maps *maps)
