@@ -8,29 +8,8 @@
 #ifndef PM_COMPOSE_H
 #define PM_COMPOSE_H
 
+#include "eye_path.h"
 #include "layer.h"
-#include "material.h"
-#include "trace.h"
-
-/// A surface on a path from the eye, and what it does to light towards lobes.wi.
-typedef struct {
-    pm_hit hit;
-    pm_lobes lobes;
-    uint64_t pixel; // and which of its samples, and which vertex of the sample's paths this is
-    uint32_t sample;
-    uint32_t vertex;
-    pm_vec3 from; // where the last ray started at a surface or the eye
-    double pdf;   // [1/sr] with which the S lobe there drew this ray; 0 for smooth lobes, the
-                  // eye and D lobes
-} pm_vertex;
-
-/// A part of a path inside one medium.
-typedef struct {
-    pm_ray ray; // its medium is set; ends at t_max, INFINITY where nothing is met
-    uint64_t pixel;
-    uint32_t sample;
-    uint32_t number; // which stretch of the sample's paths this is, from 1
-} pm_stretch;
 
 /// Whom to ask for radiance [W/(m^2 sr)] leaving a vertex towards lobes.wi. Each writes its
 /// last argument. Those that are NULL do not exist in this picture and count as black.
@@ -64,6 +43,7 @@ typedef struct {
     uint32_t splits;       // S events at which every lobe is followed; later ones play roulette
     uint32_t colours;      // wavelengths that an eye path is split into at the first surface
                            // that disperses; 0 counts as 1
+    uint32_t samples;      // of a pixel, that share its range of wavelengths; 0 counts as 1
     bool wanted[PM_LAYER_COUNT];
     pm_compose_sources ask;
 } pm_compose;

@@ -18,4 +18,27 @@ static inline void pm_lattice_point(const double shift[2], uint32_t i, uint32_t 
     u[1] = step - floor(step);
 }
 
+/// Greatest common divisor.
+static inline uint32_t pm_lattice_common(uint32_t a, uint32_t b)
+{
+    while (b != 0) {
+        uint32_t rest = a % b;
+        a = b;
+        b = rest;
+    }
+    return a;
+}
+
+/// A third coordinate: the `count` points lie at equal distances of [0,1), begun at `shift`, in
+/// an order that goes with neither of the other two.
+static inline double pm_lattice_apart(double shift, uint32_t i, uint32_t count)
+{
+    uint32_t step = count / 4;
+    while (pm_lattice_common(step, count) != 1) {
+        step++;
+    }
+    double place = (double)((uint64_t)i * step % count) / count + shift;
+    return place - floor(place);
+}
+
 #endif
