@@ -14,6 +14,11 @@ static bool needs_cap(const pm_scene *scene)
             return true;
         }
     }
+    for (int i = 0; i < scene->medium_count; i++) {
+        if (pm_spectrum_max(scene->media[i].albedo) > DIFFUSE_CAP_ABOVE) {
+            return true;
+        }
+    }
     return false;
 }
 

@@ -11,6 +11,15 @@ void pm_scene_build_materials(pm_scene_file *source);
 /// The materials of a shape's two sides: of the bsdf or ref inside it, or Mitsuba's default.
 void pm_scene_build_sides(pm_scene_file *source, const pm_xml *shape, int material[2]);
 
+/// scene.media; an element's `index` becomes that of its medium.
+void pm_scene_build_media(pm_scene_file *source);
+
+/// boundary, interior and exterior of a shape.
+void pm_scene_build_boundary(pm_scene_file *source, const pm_xml *element, pm_shape *shape);
+
+/// The medium that a sensor or an emitter names, or PM_NONE.
+int pm_scene_build_stand(pm_scene_file *source, const pm_xml *object);
+
 /// scene.shapes and shape_origin; an element's `index` becomes that of its shape.
 void pm_scene_build_shapes(pm_scene_file *source);
 

@@ -117,7 +117,6 @@ static void read_stand(pm_scene_file *source, const pm_xml *sensor)
     camera->right = pm_vec_negate(pm_vec_normalize(column[0]));
     camera->up = pm_vec_normalize(column[1]);
     camera->forward = pm_vec_normalize(column[2]);
-    camera->medium = PM_NONE;
     source->camera_origin = to_world.origin;
 }
 
@@ -128,6 +127,7 @@ static void read_sensor(pm_scene_file *source, const pm_xml *sensor)
         return;
     }
     source->scene.has_camera = true;
+    source->scene.camera.medium = pm_scene_build_stand(source, sensor);
     note_unused(source, sensor);
     note_clip(source, sensor, "near_clip");
     note_clip(source, sensor, "far_clip");

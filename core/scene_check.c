@@ -42,14 +42,19 @@ static const pm_word_plugin *check_type(pm_scene_file *source, const pm_xml *obj
         return NULL;
     }
     const pm_word_plugin *plugin = pm_scene_words_plugin(object->tag, type);
-    if (plugin == NULL || plugin->later) {
+    if (plugin == NULL) {
         PM_FAULT(source, object,
-                 "%s type \"%.60s\" is not supported%s; the nearest known type is \"%s\"",
-                 object->tag, type, plugin == NULL ? "" : " yet",
-                 pm_scene_words_nearest_plugin(object->tag, type));
-        return NULL;
+                 "%s type \"%.60s\" is not supported; the nearest known type is \"%s\"",
+                 object->tag, type, pm_scene_words_nearest_plugin(object->tag, type));
     }
     return plugin;
+}
+
+/// Coefficients that Mitsuba does not take either.
+static bool is_scattering(const pm_word_plugin *plugin, const char *name)
+{
+    return strcmp(plugin->tag, "medium") == 0 &&
+           (strcmp(name, "sigma_s") == 0 || strcmp(name, "sigma_a") == 0);
 }
 
 static void check_parameter(pm_scene_file *source, const pm_xml *given,
@@ -60,7 +65,12 @@ static void check_parameter(pm_scene_file *source, const pm_xml *given,
         return;
     }
     const pm_word_parameter *known = pm_scene_words_parameter(plugin, name);
-    if (known == NULL) {
+    if (known == NULL && is_scattering(plugin, name)) {
+        PM_FAULT(source, given,
+                 "%s \"%s\" has no parameter \"%s\": write sigma_t = sigma_s + sigma_a and "
+                 "albedo = sigma_s / sigma_t",
+                 plugin->tag, plugin->type, name);
+    } else if (known == NULL) {
         const char *nearest = pm_scene_words_nearest_parameter(plugin, name);
         PM_FAULT(source, given, "%s \"%s\" has no parameter \"%.60s\"%s%s%s", plugin->tag,
                  plugin->type, name, nearest == NULL ? "" : "; the nearest is \"",
@@ -95,17 +105,30 @@ static void check_required(pm_scene_file *source, const pm_xml *object,
     }
 }
 
+/// Only glass that bends light can disperse it.
+static void check_instruction(pm_scene_file *source, const pm_xml *instruction)
+{
+    const pm_xml *parent = instruction->parent;
+    const char *type = pm_xml_attribute(parent, "type");
+    if (strcmp(parent->tag, "bsdf") != 0 || type == NULL || strcmp(type, "dielectric") != 0) {
+        PM_FAULT(source, instruction,
+                 "<?photonlab ...?> names the glass of a dielectric bsdf and cannot stand "
+                 "inside <%s%s%.40s>",
+                 parent->tag, type == NULL ? "" : " type=", type == NULL ? "" : type);
+    }
+}
+
 /// False when what stands inside `element` cannot be judged.
 static bool check_element(pm_scene_file *source, const pm_xml *element)
 {
+    if (strcmp(element->tag, PM_XML_INSTRUCTION) == 0) {
+        check_instruction(source, element);
+        return false;
+    }
     const pm_word_element *word = pm_scene_words_element(element->tag);
     if (word == NULL) {
         PM_FAULT(source, element, "<%.60s> is not supported; the nearest known element is <%s>",
                  element->tag, pm_scene_words_nearest_element(element->tag));
-        return false;
-    }
-    if (word->later) {
-        PM_FAULT(source, element, "<%s> is not supported yet", element->tag);
         return false;
     }
     if (element->parent != NULL && !pm_word_listed(element->parent->tag, word->inside, ' ')) {

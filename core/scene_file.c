@@ -144,7 +144,7 @@ static void report_unknown_id(pm_scene_file *source, const pm_xml *ref, const ch
     }
 }
 
-pm_xml *pm_scene_file_resolve(pm_scene_file *source, const pm_xml *ref)
+pm_xml *pm_scene_file_find(const pm_scene_file *source, const pm_xml *ref)
 {
     const char *id = pm_xml_attribute(ref, "id");
     if (id == NULL || id == pm_xml_faulty) {
@@ -161,8 +161,17 @@ pm_xml *pm_scene_file_resolve(pm_scene_file *source, const pm_xml *ref)
         low = order < 0 ? middle + 1 : low;
         high = order < 0 ? high : middle;
     }
-    report_unknown_id(source, ref, id);
     return NULL;
+}
+
+pm_xml *pm_scene_file_resolve(pm_scene_file *source, const pm_xml *ref)
+{
+    const char *id = pm_xml_attribute(ref, "id");
+    pm_xml *meant = pm_scene_file_find(source, ref);
+    if (meant == NULL && id != NULL && id != pm_xml_faulty) {
+        report_unknown_id(source, ref, id);
+    }
+    return meant;
 }
 
 const char *pm_scene_file_name(pm_scene_file *source, const pm_xml *object)

@@ -39,7 +39,10 @@ int pm_scene_file_count(const pm_scene_file *source, const char *tag);
 /// same id are a fault.
 void pm_scene_file_collect_ids(pm_scene_file *source);
 
-/// The object that <ref> means, or NULL after a fault.
+/// The object that <ref> means, or NULL.
+pm_xml *pm_scene_file_find(const pm_scene_file *source, const pm_xml *ref);
+
+/// The same; NULL after a fault.
 pm_xml *pm_scene_file_resolve(pm_scene_file *source, const pm_xml *ref);
 
 /// The object's id in the file, or TYPE@LINE, made unique by "#2" ... when several objects of

@@ -31,6 +31,24 @@ static uint64_t add_spectrum(uint64_t hash, pm_spectrum s)
     return add_number(add_number(add_number(hash, s.c[0]), s.c[1]), s.c[2]);
 }
 
+static uint64_t add_glass(uint64_t hash, const pm_glass *glass)
+{
+    for (int i = 0; i < glass->terms; i++) {
+        hash = add_number(add_number(hash, glass->b[i]), glass->c[i]);
+    }
+    return hash;
+}
+
+static uint64_t add_medium(uint64_t hash, const pm_scene *scene, int index)
+{
+    if (index == PM_NONE) {
+        return add_integer(hash, UINT64_MAX);
+    }
+    const pm_medium *medium = &scene->media[index];
+    hash = add_spectrum(add_number(hash, medium->sigma_t), medium->albedo);
+    return add_number(hash, medium->g);
+}
+
 static uint64_t add_material(uint64_t hash, const pm_scene *scene, int index)
 {
     if (index == PM_NONE) {
@@ -43,7 +61,8 @@ static uint64_t add_material(uint64_t hash, const pm_scene *scene, int index)
     hash = add_spectrum(hash, m->specular_transmittance);
     hash = add_number(add_number(hash, m->int_ior), m->ext_ior);
     hash = add_spectrum(add_spectrum(hash, m->eta), m->k);
-    return add_number(add_integer(hash, (uint64_t)m->microfacet), m->alpha);
+    hash = add_number(add_integer(hash, (uint64_t)m->microfacet), m->alpha);
+    return m->glass == NULL ? hash : add_glass(hash, m->glass);
 }
 
 static uint64_t add_mesh(uint64_t hash, const pm_shape *shape)
@@ -79,6 +98,23 @@ static uint64_t add_light(uint64_t hash, const pm_light *light)
     return add_spectrum(hash, light->emitted);
 }
 
+/// Nothing for a scene without media, so that its photon files stay valid.
+static uint64_t add_media(uint64_t hash, const pm_scene *scene)
+{
+    if (scene->medium_count == 0) {
+        return hash;
+    }
+    for (int i = 0; i < scene->shape_count; i++) {
+        const pm_shape *shape = &scene->shapes[i];
+        hash = add_integer(hash, shape->boundary);
+        hash = add_medium(add_medium(hash, scene, shape->interior), scene, shape->exterior);
+    }
+    for (int i = 0; i < scene->light_count; i++) {
+        hash = add_medium(hash, scene, scene->lights[i].medium);
+    }
+    return hash;
+}
+
 uint64_t pm_scene_hash(const pm_scene *scene)
 {
     uint64_t hash = add_vector(14695981039346656037u, scene->center);
@@ -88,5 +124,5 @@ uint64_t pm_scene_hash(const pm_scene *scene)
     for (int i = 0; i < scene->light_count; i++) {
         hash = add_light(hash, &scene->lights[i]);
     }
-    return hash;
+    return add_media(hash, scene);
 }

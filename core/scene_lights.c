@@ -151,11 +151,13 @@ static void read_area(pm_scene_file *source, const pm_xml *emitter, int index)
     }
 }
 
-static void read_emitter(pm_scene_file *source, const pm_xml *emitter, int index)
+static void read_emitter(pm_scene_file *source, pm_xml *emitter, int index)
 {
+    emitter->index = index;
     pm_light *light = &source->scene.lights[index];
     *light = (pm_light){.line = emitter->line, .shape = PM_NONE, .medium = PM_NONE};
     light->id = pm_scene_file_name(source, emitter);
+    light->medium = pm_scene_build_stand(source, emitter);
     bool inside = strcmp(emitter->parent->tag, "shape") == 0;
     if (is_type(emitter, "area") != inside) {
         PM_FAULT(source, emitter, "emitter \"%s\" %s", pm_xml_attribute(emitter, "type"),

@@ -7,6 +7,7 @@
 #include "scene_build.h"
 #include "scene_value.h"
 
+#include <stdio.h>
 #include <string.h>
 
 enum { TWOSIDED_AT_FAULT = PM_NONE - 1 };
@@ -62,12 +63,61 @@ static void read_metal(pm_scene_file *source, const pm_xml *bsdf, pm_material *m
     }
 }
 
+/// The glass that an instruction of these words names; NULL after a fault.
+static const pm_glass *read_instruction(pm_scene_file *source, const pm_xml *instruction)
+{
+    const char *text = pm_xml_attribute(instruction, "text");
+    char name[64] = "";
+    if (text == pm_xml_faulty) {
+        return NULL;
+    }
+    if (sscanf(text, "glass %63s", name) != 1 ||
+        strlen(name) + strlen("glass ") < strlen(text)) {
+        PM_FAULT(source, instruction,
+                 "<?photonlab %.60s?> is not known; what is known is <?photonlab glass NAME?>",
+                 text);
+        return NULL;
+    }
+    const pm_glass *glass = pm_glass_named(name);
+    if (glass == NULL) {
+        PM_FAULT(source, instruction, "glass \"%s\" is not known; the nearest is \"%s\"", name,
+                 pm_glass_nearest(name));
+    }
+    return glass;
+}
+
+/// The glass whose index follows the wavelength, or NULL.
+static const pm_glass *read_dispersion(pm_scene_file *source, const pm_xml *bsdf)
+{
+    const pm_xml *first = NULL;
+    const pm_glass *glass = NULL;
+    for (const pm_xml *e = bsdf->child; e != NULL; e = e->next) {
+        if (strcmp(e->tag, PM_XML_INSTRUCTION) != 0) {
+            continue;
+        }
+        if (first != NULL) {
+            PM_FAULT(source, e, "a dielectric takes at most one glass; there is one at line %d",
+                     first->line);
+            continue;
+        }
+        first = e;
+        glass = read_instruction(source, e);
+    }
+    return glass;
+}
+
 static void read_glass(pm_scene_file *source, const pm_xml *bsdf, pm_material *material)
 {
     material->int_ior = read_ior(source, bsdf, "int_ior", 1.5046);
     material->ext_ior = read_ior(source, bsdf, "ext_ior", 1.000277);
     material->specular_transmittance =
         pm_scene_value_ratio(source, bsdf, "specular_transmittance", 1.0);
+}
+
+static void read_dielectric(pm_scene_file *source, const pm_xml *bsdf, pm_material *material)
+{
+    read_glass(source, bsdf, material);
+    material->glass = read_dispersion(source, bsdf);
 }
 
 static void read_plastic(pm_scene_file *source, const pm_xml *bsdf, pm_material *material)
@@ -106,7 +156,7 @@ static const struct bsdf_row {
     bool rough, transmits;
 } bsdf_rows[] = {
     {"diffuse", PM_BSDF_DIFFUSE, NULL, false, false},
-    {"dielectric", PM_BSDF_DIELECTRIC, read_glass, false, true},
+    {"dielectric", PM_BSDF_DIELECTRIC, read_dielectric, false, true},
     {"thindielectric", PM_BSDF_THIN_DIELECTRIC, read_glass, false, true},
     {"conductor", PM_BSDF_CONDUCTOR, read_metal, false, false},
     {"roughconductor", PM_BSDF_ROUGH_CONDUCTOR, read_metal, true, false},
@@ -166,6 +216,10 @@ static pm_xml *bsdf_of(pm_scene_file *source, pm_xml *child)
         return NULL;
     }
     pm_xml *meant = pm_scene_file_resolve(source, child);
+    if (meant != NULL && strcmp(meant->tag, "medium") == 0 &&
+        strcmp(child->parent->tag, "shape") == 0) {
+        return NULL;
+    }
     if (meant != NULL && strcmp(meant->tag, "bsdf") != 0) {
         PM_FAULT(source, child, "ref id \"%.60s\" names <%s>; only a bsdf can stand here",
                  pm_xml_attribute(child, "id"), meant->tag);

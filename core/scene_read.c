@@ -8,6 +8,7 @@
 #include "scene_center.h"
 #include "scene_check.h"
 #include "scene_hash.h"
+#include "scene_inside.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -20,6 +21,7 @@ static void build(pm_scene_file *source, bool needs_camera)
     if (source->faults.worst == PM_ENOMEM) {
         return;
     }
+    pm_scene_build_media(source);
     pm_scene_build_shapes(source);
     pm_scene_build_lights(source);
     pm_scene_build_camera(source);
@@ -41,6 +43,7 @@ static pm_status read_into(pm_scene_file *source, const char *path, const pm_def
     }
     if (pm_faults_none(&source->faults)) {
         pm_scene_center(source);
+        pm_scene_inside(source);
         source->scene.hash = pm_scene_hash(&source->scene);
     }
     return pm_faults_report(&source->faults);

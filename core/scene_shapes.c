@@ -236,6 +236,7 @@ static void build_shape(pm_scene_file *source, const pm_xml *element, int index)
     *shape = (pm_shape){
         .line = element->line, .light = PM_NONE, .interior = PM_NONE, .exterior = PM_NONE};
     pm_scene_build_sides(source, element, shape->material);
+    pm_scene_build_boundary(source, element, shape);
     if (type == NULL) {
         return;
     }

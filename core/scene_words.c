@@ -1,5 +1,4 @@
-// The tables. What is planned for later is listed as `later`, so that it is refused as "not
-// yet" and not as unknown.
+// The tables.
 #include "scene_words.h"
 
 #include "nearest.h"
@@ -7,38 +6,38 @@
 #include <stddef.h>
 #include <string.h>
 
-#define OBJECTS "shape bsdf emitter sensor film"
+#define OBJECTS "shape bsdf emitter sensor film medium phase"
 #define ROWS(table) ((int)(sizeof(table) / sizeof(table)[0]))
 
 static const pm_word_element elements[] = {
-    {"scene", "", "", "version id name", false},
-    {"default", "", "name value", "", false},
-    {"include", "", "filename", "", false},
-    {"integrator", "scene", "type", "id name", false},
-    {"sensor", "scene", "type", "id name", false},
-    {"sampler", "scene sensor", "type", "id name", false},
-    {"film", "sensor", "type", "id name", false},
-    {"rfilter", "film", "type", "id name", false},
-    {"bsdf", "scene shape bsdf", "type", "id name", false},
-    {"shape", "scene", "type", "id name", false},
-    {"emitter", "scene shape", "type", "id name", false},
-    {"medium", "scene shape sensor emitter", "type", "id name", true},
-    {"phase", "scene medium", "type", "id name", true},
-    {"ref", "shape bsdf", "id", "name", false},
-    {"float", OBJECTS, "name value", "", false},
-    {"integer", OBJECTS, "name value", "", false},
-    {"boolean", OBJECTS, "name value", "", false},
-    {"string", OBJECTS, "name value", "", false},
-    {"rgb", OBJECTS, "name value", "", false},
-    {"spectrum", OBJECTS, "name value", "", false},
-    {"point", OBJECTS, "name", "value x y z", false},
-    {"vector", OBJECTS, "name", "value x y z", false},
-    {"transform", OBJECTS, "name", "", false},
-    {"translate", "transform", "", "value x y z", false},
-    {"scale", "transform", "", "value x y z", false},
-    {"rotate", "transform", "angle", "value x y z", false},
-    {"lookat", "transform", "origin target", "up", false},
-    {"matrix", "transform", "value", "", false},
+    {"scene", "", "", "version id name"},
+    {"default", "", "name value", ""},
+    {"include", "", "filename", ""},
+    {"integrator", "scene", "type", "id name"},
+    {"sensor", "scene", "type", "id name"},
+    {"sampler", "scene sensor", "type", "id name"},
+    {"film", "sensor", "type", "id name"},
+    {"rfilter", "film", "type", "id name"},
+    {"bsdf", "scene shape bsdf", "type", "id name"},
+    {"shape", "scene", "type", "id name"},
+    {"emitter", "scene shape", "type", "id name"},
+    {"medium", "scene shape sensor emitter", "type", "id name"},
+    {"phase", "scene medium", "type", "id name"},
+    {"ref", "shape bsdf sensor emitter medium", "id", "name"},
+    {"float", OBJECTS, "name value", ""},
+    {"integer", OBJECTS, "name value", ""},
+    {"boolean", OBJECTS, "name value", ""},
+    {"string", OBJECTS, "name value", ""},
+    {"rgb", OBJECTS, "name value", ""},
+    {"spectrum", OBJECTS, "name value", ""},
+    {"point", OBJECTS, "name", "value x y z"},
+    {"vector", OBJECTS, "name", "value x y z"},
+    {"transform", OBJECTS, "name", ""},
+    {"translate", "transform", "", "value x y z"},
+    {"scale", "transform", "", "value x y z"},
+    {"rotate", "transform", "angle", "value x y z"},
+    {"lookat", "transform", "origin target", "up"},
+    {"matrix", "transform", "value", ""},
 };
 
 #define IOR (PM_WORD_NUMBER | PM_WORD_TEXT)
@@ -75,93 +74,81 @@ static const pm_word_plugin plugins[] = {
       {"fov_axis", PM_WORD_TEXT, false},
       {"near_clip", PM_WORD_NUMBER, false},
       {"far_clip", PM_WORD_NUMBER, false},
-      TO_WORLD},
-     false},
-    {"film",
-     "hdrfilm",
-     {{"width", PM_WORD_COUNT, false}, {"height", PM_WORD_COUNT, false}},
-     false},
-    {"shape", "rectangle", {TO_WORLD, FLIP}, false},
-    {"shape", "cube", {TO_WORLD, FLIP}, false},
+      TO_WORLD}},
+    {"film", "hdrfilm", {{"width", PM_WORD_COUNT, false}, {"height", PM_WORD_COUNT, false}}},
+    {"shape", "rectangle", {TO_WORLD, FLIP}},
+    {"shape", "cube", {TO_WORLD, FLIP}},
     {"shape",
      "sphere",
-     {{"center", PM_WORD_TRIPLE, false}, {"radius", PM_WORD_NUMBER, false}, TO_WORLD, FLIP},
-     false},
-    {"shape", "disk", {TO_WORLD, FLIP}, false},
+     {{"center", PM_WORD_TRIPLE, false}, {"radius", PM_WORD_NUMBER, false}, TO_WORLD, FLIP}},
+    {"shape", "disk", {TO_WORLD, FLIP}},
     {"shape",
      "cylinder",
      {{"p0", PM_WORD_TRIPLE, false},
       {"p1", PM_WORD_TRIPLE, false},
       {"radius", PM_WORD_NUMBER, false},
       TO_WORLD,
-      FLIP},
-     false},
-    {"shape", "ply", MESH, false},
-    {"shape", "obj", MESH, false},
-    {"bsdf", "diffuse", {COLOUR("reflectance")}, false},
+      FLIP}},
+    {"shape", "ply", MESH},
+    {"shape", "obj", MESH},
+    {"bsdf", "diffuse", {COLOUR("reflectance")}},
     {"bsdf",
      "dielectric",
      {{"int_ior", IOR, false},
       {"ext_ior", IOR, false},
       COLOUR("specular_reflectance"),
-      COLOUR("specular_transmittance")},
-     false},
+      COLOUR("specular_transmittance")}},
     {"bsdf",
      "conductor",
      {{"material", PM_WORD_TEXT, false},
       COLOUR("eta"),
       COLOUR("k"),
-      COLOUR("specular_reflectance")},
-     false},
+      COLOUR("specular_reflectance")}},
     {"bsdf",
      "thindielectric",
      {{"int_ior", IOR, false},
       {"ext_ior", IOR, false},
       COLOUR("specular_reflectance"),
-      COLOUR("specular_transmittance")},
-     false},
+      COLOUR("specular_transmittance")}},
     {"bsdf",
      "roughconductor",
      {{"material", PM_WORD_TEXT, false},
       COLOUR("eta"),
       COLOUR("k"),
       COLOUR("specular_reflectance"),
-      ROUGHNESS},
-     false},
+      ROUGHNESS}},
     {"bsdf",
      "plastic",
      {{"int_ior", IOR, false},
       {"ext_ior", IOR, false},
       COLOUR("diffuse_reflectance"),
-      COLOUR("specular_reflectance")},
-     false},
+      COLOUR("specular_reflectance")}},
     {"bsdf",
      "roughplastic",
      {{"int_ior", IOR, false},
       {"ext_ior", IOR, false},
       COLOUR("diffuse_reflectance"),
       COLOUR("specular_reflectance"),
-      ROUGHNESS},
-     false},
-    {"bsdf", "twosided", {{NULL, 0, false}}, false},
-    {"bsdf", "null", {{NULL, 0, false}}, false},
-    {"emitter",
-     "point",
-     {{"position", PM_WORD_TRIPLE, false}, COLOUR("intensity"), TO_WORLD},
-     false},
+      ROUGHNESS}},
+    {"bsdf", "twosided", {{NULL, 0, false}}},
+    {"bsdf", "null", {{NULL, 0, false}}},
+    {"emitter", "point", {{"position", PM_WORD_TRIPLE, false}, COLOUR("intensity"), TO_WORLD}},
     {"emitter",
      "directional",
-     {{"direction", PM_WORD_TRIPLE, false}, COLOUR("irradiance"), TO_WORLD},
-     false},
-    {"emitter", "area", {COLOUR("radiance")}, false},
+     {{"direction", PM_WORD_TRIPLE, false}, COLOUR("irradiance"), TO_WORLD}},
+    {"emitter", "area", {COLOUR("radiance")}},
     {"emitter",
      "spot",
      {COLOUR("intensity"),
       {"cutoff_angle", PM_WORD_NUMBER, false},
       {"beam_width", PM_WORD_NUMBER, false},
-      TO_WORLD},
-     false},
-    {"emitter", "constant", {COLOUR("radiance")}, false},
+      TO_WORLD}},
+    {"emitter", "constant", {COLOUR("radiance")}},
+    {"medium",
+     "homogeneous",
+     {COLOUR("sigma_t"), COLOUR("albedo"), {"scale", PM_WORD_NUMBER, false}}},
+    {"phase", "isotropic", {{NULL, 0, false}}},
+    {"phase", "hg", {{"g", PM_WORD_NUMBER, false}}},
 };
 
 const pm_word_element *pm_scene_words_element(const char *tag)
@@ -198,12 +185,10 @@ const pm_word_parameter *pm_scene_words_parameter(const pm_word_plugin *plugin,
 const char *pm_scene_words_nearest_element(const char *tag)
 {
     const char *known[ROWS(elements)];
-    int count = 0;
     for (int i = 0; i < ROWS(elements); i++) {
-        known[count] = elements[i].tag;
-        count += !elements[i].later;
+        known[i] = elements[i].tag;
     }
-    return pm_nearest_word(tag, known, count);
+    return pm_nearest_word(tag, known, ROWS(elements));
 }
 
 const char *pm_scene_words_nearest_plugin(const char *tag, const char *type)
@@ -212,7 +197,7 @@ const char *pm_scene_words_nearest_plugin(const char *tag, const char *type)
     int count = 0;
     for (int i = 0; i < ROWS(plugins); i++) {
         known[count] = plugins[i].type;
-        count += !plugins[i].later && strcmp(plugins[i].tag, tag) == 0;
+        count += strcmp(plugins[i].tag, tag) == 0;
     }
     return pm_nearest_word(type, known, count);
 }

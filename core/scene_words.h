@@ -22,7 +22,6 @@ typedef struct {
     const char *inside;   // the tags it may stand in, separated by blanks
     const char *needs;    // attributes it must have
     const char *may_have; // attributes it may have besides
-    bool later;           // of the format, but not read yet
 } pm_word_element;
 
 typedef struct {
@@ -36,7 +35,6 @@ typedef struct {
     const char *tag;
     const char *type;
     pm_word_parameter parameters[8]; // the last one has no name
-    bool later;                      // planned, but not read yet
 } pm_word_plugin;
 
 /// The row of the table, or NULL.
@@ -47,7 +45,7 @@ const pm_word_plugin *pm_scene_words_plugin(const char *tag, const char *type);
 const pm_word_parameter *pm_scene_words_parameter(const pm_word_plugin *plugin,
                                                   const char *name);
 
-/// The nearest word that is read, or NULL when there is none.
+/// The nearest word, or NULL when there is none.
 const char *pm_scene_words_nearest_element(const char *tag);
 const char *pm_scene_words_nearest_plugin(const char *tag, const char *type);
 const char *pm_scene_words_nearest_parameter(const pm_word_plugin *plugin, const char *name);

@@ -256,10 +256,21 @@ static void XMLCALL text(void *context, const XML_Char *bytes, int length)
 
 static void XMLCALL instruction(void *context, const XML_Char *target, const XML_Char *data)
 {
-    const layer *file = context;
-    if (strcmp(target, "photonlab") == 0) {
-        FAULT(file, "<?photonlab %.60s?> is not supported yet: leave it out", data);
+    layer *file = context;
+    if (strcmp(target, "photonlab") != 0) {
+        return;
     }
+    if (file->depth == 0) {
+        FAULT(file, "<?photonlab %.60s?> stands outside <scene>", data);
+        return;
+    }
+    const char *attributes[3] = {"text", data, NULL};
+    pm_xml *element = new_element(file, PM_XML_INSTRUCTION, attributes);
+    if (element == NULL) {
+        stop_without_memory(file);
+        return;
+    }
+    place(file, element);
 }
 
 static void XMLCALL document_type(void *context, const XML_Char *name, const XML_Char *system,

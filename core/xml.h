@@ -1,6 +1,9 @@
 // A scene file as a tree of elements, read with expat. <default>, <include> and "$name" are
 // done with here: the tree holds what they stand for. What the words mean is not known here.
 //
+// An instruction <?photonlab ...?> is an element too: its tag is PM_XML_INSTRUCTION, and its
+// only attribute, "text", is what stands behind the first word.
+//
 // Invariant: every element keeps the file and line it was written at.
 #ifndef PM_XML_H
 #define PM_XML_H
@@ -9,6 +12,7 @@
 #include "faults.h"
 #include "scene_read.h"
 
+#define PM_XML_INSTRUCTION "?photonlab"
 #define PM_XML_DEPTH_MAX 64   // elements inside each other
 #define PM_XML_INCLUDE_MAX 16 // files inside each other
 #define PM_XML_FILES_MAX 1000 // included in all
@@ -33,7 +37,7 @@ extern const char pm_xml_faulty[];
 ///
 /// Faults are added to `faults`: a file that cannot be read or is not well formed, an include
 /// that is missing or includes itself, unknown $names, defines without a <default>, a document
-/// type, text between elements, and the instruction <?photonlab ...?>, which is not known yet.
+/// type, text between elements, and an instruction outside the root.
 ///
 /// @param arena  takes the tree
 /// @return the root; NULL when there is none, and then there are faults

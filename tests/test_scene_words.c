@@ -80,14 +80,13 @@ static void indices(void)
     CHECK_CONTAINS(name, "diamond");
 }
 
-static void later(void)
+static void proposed(void)
 {
-    CHECK(pm_scene_words_element("medium")->later);
-    CHECK(!pm_scene_words_plugin("bsdf", "diffuse")->later);
     CHECK(pm_scene_words_plugin("shape", "diffuse") == NULL);
-    // What is not read yet is never proposed.
     CHECK_CONTAINS(pm_scene_words_nearest_plugin("emitter", "sport"), "spot");
-    CHECK(strcmp(pm_scene_words_nearest_element("mediun"), "medium") != 0);
+    CHECK_CONTAINS(pm_scene_words_nearest_plugin("phase", "sport"), "isotropic");
+    CHECK_CONTAINS(pm_scene_words_nearest_element("mediun"), "medium");
+    CHECK(pm_scene_words_nearest_plugin("integrator", "path") == NULL);
 }
 
 static void faults_line_up(void)
@@ -134,6 +133,6 @@ PM_TESTS({"number.1", "numbers are finite, decimal, and alone", numbers},
          {"number.2", "lists are separated by blanks or single commas", lists},
          {"nearest.1", "the nearest word is found", nearest},
          {"ior.1", "refractive indices are found by name", indices},
-         {"scene_words.1", "words that come later are known and not proposed", later},
+         {"scene_words.1", "the nearest word is one of the same kind", proposed},
          {"faults.1", "faults are one line each, twenty at most", faults_line_up},
          {"arena.1", "pieces are aligned, zeroed and do not overlap", memory})
