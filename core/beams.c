@@ -138,7 +138,7 @@ static void widen_by_ball(float box[6], const float ball[4])
 /// From the last node that has children up to the root.
 static void make_boxes(pm_beams *beams)
 {
-    uint64_t count = beams->map->count;
+    uint64_t count = beams->map.count;
     for (uint64_t node = count / 2; node >= 1; node--) {
         float *box = beams->box[node - 1];
         for (int axis = 0; axis < 3; axis++) {
@@ -206,7 +206,7 @@ pm_status pm_beams_make(const pm_photon_map *map, double radius, uint32_t k, uin
 {
     PM_TRY(check(map, radius, k));
     uint32_t kept = count_kept(map, skip);
-    pm_beams made = {.map = map};
+    pm_beams made = {.map = *map};
     making pass = {map, radius, neighbour_of(k, kept), skip, NULL};
     pm_status status = reserve(map->count, &made);
     if (status == PM_OK) {
@@ -281,9 +281,9 @@ static void add(walk *w, uint32_t index, double t, double u, double radius)
     weight *= pm_medium_transmittance(w->medium, t);
     pm_spectrum power;
     if (w->medium->g == 0.0) {
-        power = pm_store_power(w->beams->map, index);
+        power = pm_store_power(&w->beams->map, index);
     } else {
-        pm_photon_view photon = pm_store_unpack(w->beams->map, index);
+        pm_photon_view photon = pm_store_unpack(&w->beams->map, index);
         pm_vec3 direction = pm_vec(w->direction[0], w->direction[1], w->direction[2]);
         weight *= pm_medium_phase(w->medium, -pm_vec_dot(photon.direction, direction));
         power = photon.power;
@@ -317,7 +317,7 @@ static void ask_ball(walk *w, uint32_t index)
 /// of nodes that wait then.
 static int approach(walk *w, uint64_t child, uint64_t *later, int waiting)
 {
-    uint64_t count = w->beams->map->count;
+    uint64_t count = w->beams->map.count;
     if (2 * child > count) {
         if (child <= count) {
             ask_ball(w, (uint32_t)(child - 1));

@@ -19,11 +19,11 @@
 /// A volume map made ready for rays: boxes around the photons' balls, nested as the map's tree.
 /// Zero-initialised: none.
 typedef struct {
-    const pm_photon_map *map; // balanced, scaled; must outlive the beams
-    float (*ball)[4];         // x y z [m] and radius of each photon; 0: it does not count
-    float (*box)[6];  // low x y z, high x y z [m] of each node that has children: around
-                      // its ball and all below
-    uint32_t counted; // photons that count
+    pm_photon_map map; // balanced, scaled; its photons are borrowed and must outlive the beams
+    float (*ball)[4];  // x y z [m] and radius of each photon; 0: it does not count
+    float (*box)[6];   // low x y z, high x y z [m] of each node that has children: around
+                       // its ball and all below
+    uint32_t counted;  // photons that count
 } pm_beams;
 
 /// Gives each photon of `map` a radius and builds the boxes; radii on all threads.

@@ -80,6 +80,22 @@ static pm_status make_irradiance(const pm_intersector *world,
     return PM_OK;
 }
 
+/// The reach that all lookups of the volume map share, if there is one; else by neighbours.
+static pm_status make_beams(const pm_render_settings *settings, pm_render_maps *maps)
+{
+    if (!maps->has[PM_MAP_VOLUME] || settings->light.media != PM_MEDIA_BEAMS ||
+        settings->view_photons) {
+        return PM_OK;
+    }
+    double start = pm_seconds_now();
+    const pm_photon_map *volume = &maps->map[PM_MAP_VOLUME];
+    pm_estimate_settings asked =
+        pm_lookup_settings(&settings->light.estimate, settings->reach[PM_MAP_VOLUME], volume);
+    PM_TRY(pm_beams_make(volume, asked.radius, asked.k, PM_PHOTON_FIRST, &maps->beams));
+    maps->beams_seconds = pm_seconds_now() - start;
+    return PM_OK;
+}
+
 pm_status pm_render_trace_maps(const pm_intersector *world, const pm_render_settings *settings,
                                pm_render_maps *maps)
 {
@@ -99,6 +115,7 @@ pm_status pm_render_ready_maps(const pm_intersector *world, const pm_render_sett
                                pm_render_maps *maps)
 {
     PM_TRY(make_shadows(world, settings, maps));
+    PM_TRY(make_beams(settings, maps));
     return make_irradiance(world, settings, maps);
 }
 
@@ -118,5 +135,6 @@ void pm_render_maps_free(pm_render_maps *maps)
     }
     pm_photon_map_free(&maps->irradiance);
     pm_shadow_free(&maps->shadows);
+    pm_beams_free(&maps->beams);
     *maps = (pm_render_maps){0};
 }
