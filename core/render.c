@@ -13,6 +13,7 @@
 
 #include <stdlib.h>
 
+#define COLOURS 16 // wavelengths a pixel that glass disperses is seen in, over all its samples
 #define SPLITS 2 // S events of an eye path at which reflection and refraction are both followed
 
 /// What all threads share.
@@ -58,6 +59,8 @@ static void worker_set_up(const pm_eye_pass *pass, pm_eye_worker *worker)
     worker->compose.source = (pm_rng_source){settings->seed, PM_STREAM_CAMERA, settings->pass};
     worker->compose.rule = settings->roulette;
     worker->compose.splits = SPLITS;
+    worker->compose.samples = settings->light.spp;
+    worker->compose.colours = (COLOURS + settings->light.spp - 1) / settings->light.spp;
     worker->compose.max_specular =
         pm_caps_of(pass->world->scene, settings->max_bounces).specular;
     choose_layers(settings, worker->compose.wanted);
@@ -65,6 +68,7 @@ static void worker_set_up(const pm_eye_pass *pass, pm_eye_worker *worker)
     worker->gather.settings = settings->light;
     worker->gather.irradiance = maps->irradiance.count > 0 ? &maps->irradiance : NULL;
     worker->gather.shadows = maps->shadows.light_count > 0 ? &maps->shadows : NULL;
+    worker->gather.beams = maps->beams.ball != NULL ? &maps->beams : NULL;
     for (int kind = 0; kind < PM_MAP_COUNT; kind++) {
         worker->gather.map[kind] = maps->has[kind] ? &maps->map[kind] : NULL;
         worker->gather.reach[kind] = settings->reach[kind];
