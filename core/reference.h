@@ -1,6 +1,7 @@
 // The picture that others are judged by: unbiased path tracing with next-event estimation and
 // multiple importance sampling. It shares the scene, materials and roulette with the photon
-// mapper, and no map, so it cannot share its mistakes of density estimation.
+// mapper, and no map, so it cannot share its mistakes of density estimation. In media its paths
+// collide by chance, as light does; glass that disperses makes them take one wavelength each.
 //
 // Paths are sorted into the layers of layer.h by the same rule. What an eye path cannot find
 // (light of a point, spot or directional light that went through glass or mirror first) is

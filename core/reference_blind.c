@@ -1,5 +1,5 @@
-// A sentence from what lights and materials there are; geometry is not asked, so it may speak
-// of light that does not reach the glass.
+// A sentence from what lights, materials and media there are; geometry is not asked, so it may
+// speak of light that does not reach the glass.
 #include "reference_blind.h"
 
 #include "light.h"
@@ -46,23 +46,41 @@ static void name_lights(const pm_scene *scene, char *names, size_t room)
     }
 }
 
+static bool media_scatter(const pm_scene *scene)
+{
+    for (int i = 0; i < scene->medium_count; i++) {
+        const pm_medium *medium = &scene->media[i];
+        if (medium->sigma_t > 0.0 && !pm_spectrum_is_black(medium->albedo)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 void pm_reference_blind(const pm_scene *scene, bool light_paths,
                         char sentence[PM_REFERENCE_BLIND_ROOM])
 {
     bool spreads;
     pm_material_traits traits = worn_traits(scene, &spreads);
+    bool fog = media_scatter(scene);
     char names[64];
     name_lights(scene, names, sizeof names);
     sentence[0] = '\0';
-    if (names[0] == '\0' || !traits.delta || !spreads) {
+    if (names[0] == '\0' || !traits.delta || !(spreads || fog)) {
         return;
     }
-    snprintf(sentence, PM_REFERENCE_BLIND_ROOM,
-             light_paths
-                 ? "missing: what smooth glass and mirrors show of the caustics of %s lights"
-                   " and of the light these give"
-                 : "missing: caustics of %s lights by smooth glass and mirrors, the indirect"
-                   " light these give (--light-paths N traces both), and what glass and"
-                   " mirrors show of them",
-             names);
+    const char *where = fog ? ", in media too," : "";
+    if (light_paths) {
+        snprintf(
+            sentence, PM_REFERENCE_BLIND_ROOM,
+            "missing: what smooth glass and mirrors show of the caustics of %s lights%s and"
+            " of the light these give",
+            names, where);
+    } else {
+        snprintf(sentence, PM_REFERENCE_BLIND_ROOM,
+                 "missing: caustics of %s lights by smooth glass and mirrors%s the indirect"
+                 " light these give (--light-paths N traces both), and what glass and mirrors"
+                 " show of them",
+                 names, fog ? where : ",");
+    }
 }

@@ -1,6 +1,7 @@
 // What a reference cannot show. A light without extent is found by paths from the eye only
-// where its light meets a surface that spreads it; where it meets smooth glass or a smooth
-// mirror first, no path from the eye ever hits it.
+// where its light meets something that spreads it, a surface or a medium; where it meets smooth
+// glass or a smooth mirror first, no path from the eye ever hits it. Paths from the light then
+// do, unless smooth glass or a mirror stands before the eye, too.
 #ifndef PM_REFERENCE_BLIND_H
 #define PM_REFERENCE_BLIND_H
 

@@ -23,7 +23,8 @@ static const pm_options_program program = {
         "and its layers from each half of the samples alone, so that compare can tell this\n"
         "picture's own noise. --spp must be even. Paths from the eye do not find light of\n"
         "point, spot and directional lights that meets smooth glass or a mirror first;\n"
-        "--light-paths traces it from the lights to the camera.",
+        "--light-paths traces it from the lights to the camera, in media too. Depth, normals\n"
+        "and the mask of emitters are those of the surfaces behind a medium.",
 };
 
 static json_t *settings_object(const pm_scene *scene, const pm_reference_settings *settings)
