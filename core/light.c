@@ -98,6 +98,21 @@ bool pm_light_sample_from(const pm_scene *scene, const pm_light *light, pm_vec3 
     return false;
 }
 
+bool pm_light_place(const pm_scene *scene, const pm_light *light, const double u[2],
+                    pm_vec3 *place)
+{
+    if (light->type == PM_LIGHT_DIRECTIONAL || light->type == PM_LIGHT_CONSTANT) {
+        return false;
+    }
+    *place = light->position;
+    if (light->type == PM_LIGHT_AREA) {
+        pm_hit source;
+        pm_shape_point(&scene->shapes[light->shape], u[0], u[1], &source);
+        *place = source.position;
+    }
+    return true;
+}
+
 double pm_light_clear(const pm_intersector *world, pm_vec3 from, int medium,
                       const pm_light_sample *sample)
 {

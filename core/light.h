@@ -25,6 +25,11 @@ typedef struct {
 bool pm_light_sample_from(const pm_scene *scene, const pm_light *light, pm_vec3 from,
                           const double u[2], pm_light_sample *sample);
 
+/// Where the point lies that these two numbers draw, from wherever it is seen.
+/// @param place  [out] [m]; untouched when the light has none: directional, constant
+bool pm_light_place(const pm_scene *scene, const pm_light *light, const double u[2],
+                    pm_vec3 *place);
+
 /// Share of the light drawn that gets to `from`: 0 where a surface other than null stands
 /// between, else what media on the way let through; 1 in clear air.
 ///
