@@ -64,7 +64,7 @@ static void tell_only(pm_talk *talk)
     }
     for (pm_plan_part part = PM_PLAN_DIRECT; part <= PM_PLAN_VOLUME; part++) {
         if (talk->maps->plan.item[part].needed && only != (int)layer[part]) {
-            add_word(gone, sizeof gone, pm_plan_paths(part));
+            add_word(gone, sizeof gone, pm_plan_paths(&talk->maps->plan, part));
         }
     }
     char option[32];
@@ -72,14 +72,22 @@ static void tell_only(pm_talk *talk)
     say(talk, option, "paths %s are left out", gone)->missing = gone[0] != '\0';
 }
 
+/// The option by which the map of a part was switched off.
+static const char *map_option(const pm_talk *talk, pm_plan_part part)
+{
+    if (part == PM_PLAN_VOLUME) {
+        return "--volume-photons 0";
+    }
+    bool own = part == PM_PLAN_CAUSTIC && !talk->settings->light.caustics_global;
+    return own ? "--caustic-photons 0" : "--global-photons 0";
+}
+
 static void tell_missing_maps(pm_talk *talk)
 {
     for (pm_plan_part part = PM_PLAN_DIRECT; part < PM_PLAN_COUNT; part++) {
         const pm_plan_item *item = &talk->maps->plan.item[part];
         if (item->missing) {
-            bool own = part == PM_PLAN_CAUSTIC && !talk->settings->light.caustics_global;
-            const char *option = own ? "--caustic-photons 0" : "--global-photons 0";
-            say(talk, option, "%s", item->left_out)->missing = true;
+            say(talk, map_option(talk, part), "%s", item->left_out)->missing = true;
         }
     }
 }
@@ -105,7 +113,27 @@ static void tell_gather(pm_talk *talk)
         say(talk, "--gather 0",
             "no path is left out; the global map is seen directly, so indirect light, paths "
             "%s, is as blurred and as blotched as its estimates",
-            pm_plan_paths(PM_PLAN_INDIRECT));
+            pm_plan_paths(&talk->maps->plan, PM_PLAN_INDIRECT));
+    }
+}
+
+/// Media are asked by beams unless told otherwise.
+static void tell_media(pm_talk *talk)
+{
+    const pm_gather_settings *light = &talk->settings->light;
+    const pm_render_maps *maps = talk->maps;
+    bool map = maps->has[PM_MAP_VOLUME] || maps->photons[PM_MAP_VOLUME] > 0;
+    bool march = light->media == PM_MEDIA_MARCH;
+    if (march && !map) {
+        say_idle(talk, "--media march", "no volume map is traced");
+    } else if (march) {
+        say(talk, "--media march",
+            "no path is left out; paths L{S|D|V}+V come from estimates at steps along each "
+            "ray, "
+            "which are many for what one beam does");
+    }
+    if (light->step > 0.0 && !(march && map)) {
+        say_idle(talk, "--march-step", "no ray marches through a volume map");
     }
 }
 
@@ -183,6 +211,7 @@ int pm_choice_list(const pm_render_settings *settings, const pm_render_maps *map
     tell_missing_maps(&talk);
     tell_cap(&talk);
     tell_gather(&talk);
+    tell_media(&talk);
     tell_caustics(&talk);
     tell_direct(&talk);
     tell_precompute(&talk);

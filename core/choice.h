@@ -4,7 +4,7 @@
 
 #include "render.h"
 
-#define PM_CHOICES_MAX 12
+#define PM_CHOICES_MAX 16
 
 /// One setting that is not the default and bears on which light is shown, or how well.
 typedef struct {

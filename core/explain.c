@@ -42,6 +42,18 @@ static uint32_t rays_shot(uint32_t asked, uint32_t spp)
     return (asked + spp - 1) / spp * spp;
 }
 
+static void describe_volume(const pm_render_settings *settings, const pm_render_maps *maps,
+                            char *text, size_t room)
+{
+    char map[64];
+    describe_map(settings, maps, PM_MAP_VOLUME, map, sizeof map);
+    snprintf(text, room,
+             "LV by points along each ray that passes a medium, %u a pixel for each light; the "
+             "rest from the %s, asked by %s",
+             rays_shot(settings->light.light_samples, settings->light.spp), map,
+             settings->light.media == PM_MEDIA_MARCH ? "marching" : "beams");
+}
+
 static void describe_cost(const pm_render_settings *settings, const pm_render_maps *maps,
                           pm_plan_part part, char *text, size_t room)
 {
@@ -59,6 +71,8 @@ static void describe_cost(const pm_render_settings *settings, const pm_render_ma
         snprintf(text, room, "eye rays go on through mirrors and glass; no map");
     } else if (part == PM_PLAN_CAUSTIC) {
         snprintf(text, room, "%s", map);
+    } else if (part == PM_PLAN_VOLUME) {
+        describe_volume(settings, maps, text, room);
     } else if (light->rays > 0) {
         snprintf(text, room, "%s, and %u gather rays a pixel", map,
                  rays_shot(light->rays, light->spp));
@@ -73,9 +87,9 @@ static void print_part(const pm_render_settings *settings, const pm_render_maps 
     const pm_plan_item *item = &maps->plan.item[part];
     fprintf(stream, "%-10s  %-3s ", pm_plan_name(part), item->needed ? "yes" : "no");
     pm_wrap_print(item->why, INDENT, stream);
-    const char *paths = pm_plan_paths(part);
+    const char *paths = pm_plan_paths(&maps->plan, part);
     if (item->needed && paths[0] != '\0') {
-        char cost[128];
+        char cost[192];
         char line[256];
         describe_cost(settings, maps, part, cost, sizeof cost);
         snprintf(line, sizeof line, "paths %s: %s", paths, cost);
@@ -124,7 +138,7 @@ void pm_explain_print(const pm_render_settings *settings, const pm_render_maps *
     snprintf(line, sizeof line, "shadow maps: %s", no_shadow_maps);
     print_below(line, stream);
     fputs("\nPaths are spelled from the light L on: S mirrored or refracted, D scattered "
-          "diffusely;\n{S|D} either, + once or more, * any number.\n",
+          "diffusely,\nV scattered in a medium; {S|D} either, + once or more, * any number.\n",
           stream);
 }
 

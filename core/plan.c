@@ -1,5 +1,5 @@
-// What surfaces scatter and what lights send decides it; only materials that a shape wears
-// count.
+// What surfaces and media scatter and what lights send decides it; only materials that a shape
+// wears count, and only media that light can get into.
 #include "plan.h"
 
 #include "map_make.h"
@@ -15,8 +15,14 @@ typedef struct {
     const char *reflecting; // shape of which some diffuse light comes back
     const char *specular;   // shape with an S lobe
     const char *surface;    // what that S lobe belongs to
-    const char *light;      // light with power
+    const char *dispersing; // shape of a glass that disperses, and its name
+    const char *glass;
+    const char *light; // light with power
     int powered;
+    const pm_medium *hazy;    // medium that scatters
+    const pm_medium *dimming; // that takes light, and scatters none
+    const pm_medium *thin;    // that does nothing
+    const pm_medium *sealed;  // that no light can get into
 } pm_contents;
 
 static const char *surface_word(pm_bsdf_type type)
@@ -55,6 +61,57 @@ static void look_at_side(const pm_scene *scene, const pm_shape *shape, int side,
         contents->specular = shape->id;
         contents->surface = surface_word(material->type);
     }
+    if (material->glass != NULL && contents->dispersing == NULL) {
+        contents->dispersing = shape->id;
+        contents->glass = material->glass->name;
+    }
+}
+
+/// Whether some light can leave a shape on this side of it: through it, or thrown back.
+static bool sends_on(const pm_scene *scene, const pm_shape *shape, int side)
+{
+    if (shape->material[side] == PM_NONE) {
+        return false; // absorbs; and nothing passes the material on the other side alone
+    }
+    const pm_material *material = &scene->materials[shape->material[side]];
+    return material->type != PM_BSDF_DIFFUSE || !pm_spectrum_is_black(material->reflectance);
+}
+
+/// Whether light can get into a medium: it leaves a shape into it, or starts in it. The
+/// camera's does not count: what no light is in, no eye sees.
+static bool is_open(const pm_scene *scene, int medium)
+{
+    for (int i = 0; i < scene->shape_count; i++) {
+        const pm_shape *shape = &scene->shapes[i];
+        bool before = shape->exterior == medium && sends_on(scene, shape, 0);
+        bool behind = shape->interior == medium && sends_on(scene, shape, 1);
+        if (shape->boundary && (before || behind)) {
+            return true;
+        }
+    }
+    for (int i = 0; i < scene->light_count; i++) {
+        const pm_light *light = &scene->lights[i];
+        if (light->medium == medium && !pm_spectrum_is_black(light->flux)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void look_at_medium(const pm_scene *scene, int index, pm_contents *contents)
+{
+    const pm_medium *medium = &scene->media[index];
+    const pm_medium **first = &contents->hazy;
+    if (!is_open(scene, index)) {
+        first = &contents->sealed;
+    } else if (medium->sigma_t == 0.0) {
+        first = &contents->thin;
+    } else if (pm_spectrum_is_black(medium->albedo)) {
+        first = &contents->dimming;
+    }
+    if (*first == NULL) {
+        *first = medium;
+    }
 }
 
 static pm_contents look_around(const pm_scene *scene)
@@ -63,6 +120,9 @@ static pm_contents look_around(const pm_scene *scene)
     for (int i = 0; i < scene->shape_count; i++) {
         look_at_side(scene, &scene->shapes[i], 0, &contents);
         look_at_side(scene, &scene->shapes[i], 1, &contents);
+    }
+    for (int i = 0; i < scene->medium_count; i++) {
+        look_at_medium(scene, i, &contents);
     }
     for (int i = 0; i < scene->light_count; i++) {
         if (pm_spectrum_is_black(scene->lights[i].flux)) {
@@ -125,9 +185,45 @@ static void plan_indirect(pm_plan *plan, const pm_contents *has)
 {
     if (has->reflecting == NULL) {
         decide(plan, PM_PLAN_INDIRECT, false, "no diffuse surface reflects");
+    } else if (has->hazy != NULL) {
+        decide(plan, PM_PLAN_INDIRECT, true,
+               "diffuse surfaces such as %s pass light on, and %s scatters light onto them",
+               has->reflecting, has->hazy->id);
     } else {
         decide(plan, PM_PLAN_INDIRECT, true, "diffuse surfaces such as %s pass light on",
                has->reflecting);
+    }
+}
+
+static void plan_volume(pm_plan *plan, const pm_contents *has)
+{
+    if (has->hazy != NULL) {
+        decide(plan, PM_PLAN_VOLUME, true,
+               "%s scatters light: that of %s, and what comes back from elsewhere",
+               has->hazy->id, has->light);
+    } else if (has->dimming != NULL) {
+        decide(plan, PM_PLAN_VOLUME, false,
+               "%s takes light on its way and scatters none: its albedo is 0",
+               has->dimming->id);
+    } else if (has->thin != NULL) {
+        decide(plan, PM_PLAN_VOLUME, false, "%s lets all light pass: its extinction is 0",
+               has->thin->id);
+    } else if (has->sealed != NULL) {
+        decide(plan, PM_PLAN_VOLUME, false, "no light gets into %s", has->sealed->id);
+    } else {
+        decide(plan, PM_PLAN_VOLUME, false, "no medium");
+    }
+}
+
+static void plan_dispersion(pm_plan *plan, const pm_contents *has)
+{
+    if (has->dispersing == NULL) {
+        decide(plan, PM_PLAN_DISPERSION, false, "no glass that disperses");
+    } else {
+        decide(plan, PM_PLAN_DISPERSION, true,
+               "%s is of %s, which bends blue light more than red: a path through it has one "
+               "wavelength",
+               has->dispersing, has->glass);
     }
 }
 
@@ -135,16 +231,16 @@ pm_plan pm_plan_scene(const pm_scene *scene)
 {
     pm_plan plan = {0};
     pm_contents has = look_around(scene);
-    decide(&plan, PM_PLAN_VOLUME, false, "no medium");
-    decide(&plan, PM_PLAN_DISPERSION, false, "no glass that disperses");
     decide(&plan, PM_PLAN_PROJECTION, false, "no photon map is traced");
     if (has.powered > 0) {
         plan_direct(&plan, &has);
         plan_specular(&plan, &has);
         plan_indirect(&plan, &has);
+        plan_volume(&plan, &has);
+        plan_dispersion(&plan, &has);
         return plan;
     }
-    for (pm_plan_part part = PM_PLAN_DIRECT; part <= PM_PLAN_INDIRECT; part++) {
+    for (pm_plan_part part = PM_PLAN_DIRECT; part <= PM_PLAN_DISPERSION; part++) {
         decide(&plan, part, false, "no light has any power");
     }
     return plan;
@@ -227,9 +323,11 @@ const char *pm_plan_name(pm_plan_part part)
     return names[part];
 }
 
-const char *pm_plan_paths(pm_plan_part part)
+const char *pm_plan_paths(const pm_plan *plan, pm_plan_part part)
 {
-    static const char *const paths[PM_PLAN_COUNT] = {
-        "LD", "L{S|D}*S", "LS+D", "L{S|D}*D{S|D}*D", "L{S|D|V}*V", "", ""};
-    return paths[part];
+    static const char *const clear[PM_PLAN_COUNT] = {
+        "LD", "L{S|D}*S", "LS+D", "L{S|D}*D{S|D}*D", "", "", ""};
+    static const char *const hazy[PM_PLAN_COUNT] = {
+        "LD", "L{S|D|V}*S", "LS+D", "L{S|D|V}*{D|V}{S|D|V}*D", "L{S|D|V}*V", "", ""};
+    return plan->item[PM_PLAN_VOLUME].needed ? hazy[part] : clear[part];
 }

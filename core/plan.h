@@ -28,8 +28,8 @@ typedef struct {
     pm_plan_item item[PM_PLAN_COUNT];
 } pm_plan;
 
-/// Reads the plan off materials and lights. Takes no other argument, so it says what the scene
-/// needs, not what a user switched off. What projection maps are worth is not known yet.
+/// Reads the plan off materials, media and lights. Takes no other argument, so it says what the
+/// scene needs, not what a user switched off. What projection maps are worth is not known yet.
 pm_plan pm_plan_scene(const pm_scene *scene);
 
 /// Whether the plan asks for the map of `kind`.
@@ -56,8 +56,8 @@ pm_status pm_plan_split(uint64_t total, const bool traced[PM_MAP_COUNT],
 /// The part's name as reports spell it.
 const char *pm_plan_name(pm_plan_part part);
 
-/// The path classes that a part carries, from the light on ("LS+D"); "" for a part that only
-/// helps others.
-const char *pm_plan_paths(pm_plan_part part);
+/// The path classes that a part carries in this scene, from the light on ("LS+D"); V is in them
+/// where a medium scatters. "" for a part that only helps others.
+const char *pm_plan_paths(const pm_plan *plan, pm_plan_part part);
 
 #endif

@@ -19,6 +19,15 @@ static bool lives(const pm_plan *plan, const pm_render_settings *settings, pm_pl
     return plan->item[part].needed && pm_render_shows(settings, layer);
 }
 
+/// Whether the picture asks the volume map: where a medium is seen, or runs along gather rays.
+static bool asks_volume(const pm_plan *plan, const pm_render_settings *settings)
+{
+    bool gathers =
+        settings->light.rays > 0 && lives(plan, settings, PM_PLAN_INDIRECT, PM_LAYER_INDIRECT);
+    return lives(plan, settings, PM_PLAN_VOLUME, PM_LAYER_VOLUME) ||
+           (gathers && plan->item[PM_PLAN_VOLUME].needed);
+}
+
 /// Whether the picture asks the map of `kind`. Gather rays find caustics in the global map.
 static bool asks(const pm_plan *plan, const pm_render_settings *settings, pm_map_kind kind)
 {
@@ -31,7 +40,7 @@ static bool asks(const pm_plan *plan, const pm_render_settings *settings, pm_map
     case PM_MAP_CAUSTIC:
         return caustic && !from_global;
     default:
-        return lives(plan, settings, PM_PLAN_VOLUME, PM_LAYER_VOLUME);
+        return asks_volume(plan, settings);
     }
 }
 
@@ -43,10 +52,19 @@ static void name_what_is_missing(pm_plan *plan, const pm_render_settings *settin
         pm_plan_miss(plan, PM_PLAN_CAUSTIC, "no caustic map by choice: paths LS+D are missing");
         return;
     }
+    if (kind == PM_MAP_VOLUME) {
+        pm_plan_miss(
+            plan, PM_PLAN_VOLUME,
+            "no volume map by choice: paths L{S|D|V}+V, all that media scatter but LV, "
+            "straight from lights, are missing, in indirect light too");
+        return;
+    }
     if (plan->item[PM_PLAN_INDIRECT].needed) {
-        pm_plan_miss(plan, PM_PLAN_INDIRECT,
-                     "no global map by choice: paths L{S|D}*D{S|D}*D, all indirect light, are "
-                     "missing");
+        char what[160];
+        snprintf(what, sizeof what,
+                 "no global map by choice: paths %s, all indirect light, are missing",
+                 pm_plan_paths(plan, PM_PLAN_INDIRECT));
+        pm_plan_miss(plan, PM_PLAN_INDIRECT, what);
     }
     if (plan->item[PM_PLAN_CAUSTIC].needed && settings->light.caustics_global) {
         pm_plan_miss(plan, PM_PLAN_CAUSTIC,

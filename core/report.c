@@ -70,7 +70,7 @@ json_t *pm_report_plan(const pm_plan *plan)
         const pm_plan_item *item = &plan->item[part];
         json_t *entry =
             json_pack("{s:b,s:s,s:s,s:s?}", "needed", item->needed, "why", item->why, "paths",
-                      pm_plan_paths(part), "missing", item->missing ? item->left_out : NULL);
+                      pm_plan_paths(plan, part), "missing", item->missing ? item->left_out : NULL);
         object = pm_report_add(object, pm_plan_name(part), entry);
     }
     return object;

@@ -110,6 +110,41 @@ static const said without_ball[] = {
     {only_caustic, "--only caustic", "paths L, LD, L{S|D}*D{S|D}*D are left out", true, false},
 };
 
+static void no_volume_map(pm_render_settings *settings)
+{
+    settings->photons[PM_MAP_VOLUME] = 0;
+}
+static void march(pm_render_settings *settings)
+{
+    settings->light.media = PM_MEDIA_MARCH;
+}
+static void march_without_a_map(pm_render_settings *settings)
+{
+    march(settings);
+    no_volume_map(settings);
+}
+static void steps_without_a_march(pm_render_settings *settings)
+{
+    settings->light.step = 0.1;
+}
+
+static const said with_fog[] = {
+    {no_volume_map, "--volume-photons 0", "paths L{S|D|V}+V, all that media scatter but LV",
+     true, false},
+    {no_global_map, "--global-photons 0", "paths L{S|D|V}*{D|V}{S|D|V}*D, all indirect", true,
+     false},
+    {only_caustic, "--only caustic",
+     "paths L, LD, L{S|D|V}*S, L{S|D|V}*{D|V}{S|D|V}*D, L{S|D|V}*V are left out", true, false},
+    {no_gather, "--gather 0", "paths L{S|D|V}*{D|V}{S|D|V}*D, is as blurred", false, false},
+    {march, "--media march", "estimates at steps", false, false},
+    {march_without_a_map, "--media march", "no volume map", false, true},
+    {steps_without_a_march, "--march-step", "no ray marches", false, true},
+};
+
+static const said without_fog[] = {
+    {march, "--media march", "no volume map", false, true},
+};
+
 static const pm_choice *find(const pm_choice *list, int count, const char *option)
 {
     for (int i = 0; i < count; i++) {
@@ -154,6 +189,32 @@ static void each_setting_says_what_it_changes(void)
     pm_scenes_free(&s);
 }
 
+/// The room with a ball of glass, full of `fog`, which must outlive the scene.
+static void build_foggy(pm_scenes *s, pm_medium *fog)
+{
+    build(s, true);
+    *fog = (pm_medium){.id = "fog", .sigma_t = 1.0, .albedo = pm_gray(0.5)};
+    s->scene.media = fog;
+    s->scene.medium_count = 1;
+    s->lights[0].medium = 0;
+}
+
+static void settings_of_media_say_what_they_change(void)
+{
+    pm_scenes s;
+    pm_medium fog;
+    build_foggy(&s, &fog);
+    for (size_t i = 0; i < sizeof with_fog / sizeof with_fog[0]; i++) {
+        check_said(&s, &with_fog[i]);
+    }
+    pm_scenes_free(&s);
+    build(&s, true);
+    for (size_t i = 0; i < sizeof without_fog / sizeof without_fog[0]; i++) {
+        check_said(&s, &without_fog[i]);
+    }
+    pm_scenes_free(&s);
+}
+
 static void defaults_say_nothing(void)
 {
     pm_scenes s;
@@ -171,10 +232,14 @@ static void defaults_say_nothing(void)
 static void all_choices_fit(void)
 {
     pm_scenes s;
-    build(&s, true);
+    pm_medium fog;
+    build_foggy(&s, &fog);
     pm_render_settings settings = pm_render_defaults();
     for (size_t i = 0; i < sizeof with_ball / sizeof with_ball[0]; i++) {
         with_ball[i].change(&settings);
+    }
+    for (size_t i = 0; i < sizeof with_fog / sizeof with_fog[0]; i++) {
+        with_fog[i].change(&settings);
     }
     pm_render_maps maps = {0};
     CHECK_OK(pm_render_plan(&s.scene, &settings, &maps));
@@ -258,6 +323,27 @@ static void the_page_says_needs_costs_and_what_is_left_out(void)
     pm_scenes_free(&s);
 }
 
+static void the_page_says_how_media_are_asked(void)
+{
+    pm_scenes s;
+    pm_medium fog;
+    build_foggy(&s, &fog);
+    pm_render_settings settings = pm_render_defaults();
+    char *text = explain(&s, &settings);
+    flatten(text);
+    CHECK_CONTAINS(text, "volume yes fog scatters light: that of point");
+    CHECK_CONTAINS(text, "paths L{S|D|V}*V: LV by points along each ray that passes a medium, "
+                         "16 a pixel for each light; the rest from the volume map, 100000 "
+                         "photons, asked by beams");
+    free(text);
+    march_without_a_map(&settings);
+    text = explain(&s, &settings);
+    flatten(text);
+    CHECK_CONTAINS(text, "the rest from the volume map, not traced, asked by marching");
+    free(text);
+    pm_scenes_free(&s);
+}
+
 static void json_says_the_same(void)
 {
     pm_scenes s;
@@ -292,4 +378,7 @@ PM_TESTS({"choice.1", "each setting says which paths it leaves out or what it ch
          {"choice.3", "all choices at once fit", all_choices_fit},
          {"choice.4", "--explain says needs, paths, costs and what is left out, in 96 columns",
           the_page_says_needs_costs_and_what_is_left_out},
+         {"choice.6", "settings of media say what they leave out or change",
+          settings_of_media_say_what_they_change},
+         {"choice.7", "--explain says how media are asked", the_page_says_how_media_are_asked},
          {"choice.5", "--explain --json says the same", json_says_the_same})

@@ -138,6 +138,59 @@ static void settings_decide_what_is_traced(void)
     pm_scenes_free(&s);
 }
 
+/// What a choice of settings makes of the volume map of a foggy room.
+static void volume_map_is_traced_where_fog_is_asked(void)
+{
+    static const struct {
+        int only;
+        uint32_t rays;
+        uint64_t given, want;
+        bool missing;
+    } cases[] = {
+        {PM_NONE, 4, 7, 7, false},
+        {PM_NONE, 0, 7, 7, false},
+        {PM_NONE, 4, 0, 0, true},
+        {PM_LAYER_VOLUME, 4, 7, 7, false},
+        {PM_LAYER_SPECULAR, 0, 7, 7, false},
+        {PM_LAYER_INDIRECT, 4, 7, 7, false}, // gather rays run through fog
+        {PM_LAYER_INDIRECT, 0, 7, 0, false}, // the global map has what fog sent to surfaces
+        {PM_LAYER_DIRECT, 4, 7, 0, false},
+        {PM_LAYER_CAUSTIC, 4, 7, 0, false},
+        {PM_LAYER_EMISSION, 4, 0, 0, false},
+    };
+    pm_medium fog = {.id = "fog", .sigma_t = 1.0, .albedo = pm_gray(0.5)};
+    pm_scenes s;
+    pm_render_settings settings = mirrored_room(&s);
+    s.scene.media = &fog;
+    s.scene.medium_count = 1;
+    s.lights[0].medium = 0;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        settings.only = cases[i].only;
+        settings.light.rays = cases[i].rays;
+        settings.photons[PM_MAP_VOLUME] = cases[i].given;
+        pm_render_maps maps = {0};
+        CHECK_OK(pm_render_plan(&s.scene, &settings, &maps));
+        CHECK_THAT(maps.photons[PM_MAP_VOLUME] == cases[i].want, "case %zu: %llu", i,
+                   (unsigned long long)maps.photons[PM_MAP_VOLUME]);
+        const pm_plan_item *item = &maps.plan.item[PM_PLAN_VOLUME];
+        CHECK(item->needed && item->missing == cases[i].missing);
+        if (cases[i].missing) {
+            CHECK_CONTAINS(item->left_out, "paths L{S|D|V}+V, ");
+            CHECK_CONTAINS(item->left_out, "but LV");
+            CHECK_CONTAINS(item->left_out, "in indirect light too");
+        }
+        pm_render_maps_free(&maps);
+    }
+    settings.only = PM_NONE;
+    settings.light.rays = 4;
+    settings.total = 1000;
+    pm_render_maps maps = {0};
+    CHECK_OK(pm_render_plan(&s.scene, &settings, &maps));
+    CHECK(maps.photons[PM_MAP_GLOBAL] == 400 && maps.photons[PM_MAP_VOLUME] == 200);
+    pm_render_maps_free(&maps);
+    pm_scenes_free(&s);
+}
+
 static void missing_maps_name_their_paths(void)
 {
     pm_scenes s;
@@ -230,6 +283,8 @@ PM_TESTS({"render_maps.1", "a map that nothing needs, or that is switched off, i
           settings_decide_what_is_traced},
          {"render_maps.4", "a map that is off names the paths that are missing",
           missing_maps_name_their_paths},
+         {"render_maps.7", "the volume map is traced where eye or gather rays pass a medium",
+          volume_map_is_traced_where_fog_is_asked},
          {"render_maps.5", "shadow photons are sent where direct light is shown",
           shadow_photons_are_sent_where_direct_light_is_shown},
          {"render_maps.6", "what was planned is made: aimed photons, shadows, irradiance",
