@@ -14,29 +14,43 @@
 // roulette's average rule divides by a third of the albedo where only one channel is reflected.
 #define SURVIVOR_MOST 3.0
 
-pm_status pm_audit_make(int shape_count, pm_audit *audit)
+static pm_status make_books(int count, size_t size, const char *what, void **books)
 {
-    size_t count = shape_count > 0 ? (size_t)shape_count : 1;
-    pm_audit_shape *shapes = calloc(count, sizeof *shapes);
-    if (shapes == NULL) {
-        return PM_FAIL(PM_ENOMEM, "no memory for the books of %d shapes", shape_count);
+    *books = calloc(count > 0 ? (size_t)count : 1, size);
+    return *books != NULL ? PM_OK
+                          : PM_FAIL(PM_ENOMEM, "no memory for the books of %d %s", count, what);
+}
+
+pm_status pm_audit_make(const pm_scene *scene, pm_audit *audit)
+{
+    void *shapes;
+    void *media;
+    PM_TRY(make_books(scene->shape_count, sizeof(pm_audit_shape), "shapes", &shapes));
+    pm_status status =
+        make_books(scene->medium_count, sizeof(pm_audit_medium), "media", &media);
+    if (status != PM_OK) {
+        free(shapes);
+        return status;
     }
-    *audit = (pm_audit){.shapes = shapes, .shape_count = shape_count};
+    *audit = (pm_audit){.scene = scene, .shapes = shapes, .media = media};
     return PM_OK;
 }
 
 void pm_audit_free(pm_audit *audit)
 {
     free(audit->shapes);
+    free(audit->media);
     *audit = (pm_audit){0};
 }
 
 void pm_audit_clear(pm_audit *audit)
 {
+    const pm_scene *scene = audit->scene;
     pm_audit_shape *shapes = audit->shapes;
-    int shape_count = audit->shape_count;
-    memset(shapes, 0, (size_t)shape_count * sizeof *shapes);
-    *audit = (pm_audit){.shapes = shapes, .shape_count = shape_count};
+    pm_audit_medium *media = audit->media;
+    memset(shapes, 0, (size_t)scene->shape_count * sizeof *shapes);
+    memset(media, 0, (size_t)scene->medium_count * sizeof *media);
+    *audit = (pm_audit){.scene = scene, .shapes = shapes, .media = media};
 }
 
 static void grow(pm_spectrum *sum, pm_spectrum part)
@@ -44,18 +58,40 @@ static void grow(pm_spectrum *sum, pm_spectrum part)
     *sum = pm_spectrum_add(*sum, part);
 }
 
+/// Adds one gap to a sum whose mean must be 0, and to the variance of that sum.
+static void judge(pm_spectrum gap, pm_spectrum *sum, pm_spectrum *variance)
+{
+    grow(sum, gap);
+    grow(variance, pm_spectrum_mul(gap, gap));
+}
+
+/// Of all that the roulette could have chosen.
+static pm_spectrum albedo_at(const pm_audit *audit, const pm_event *event)
+{
+    if (event->lobes != NULL) {
+        pm_spectrum albedo = pm_gray(0.0);
+        for (int i = 0; i < event->lobes->count; i++) {
+            grow(&albedo, event->lobes->lobe[i].albedo);
+        }
+        return albedo;
+    }
+    return audit->scene->media[event->medium].albedo;
+}
+
 /// What the albedos promised on average, against what the roulette carried on.
 static void judge_roulette(pm_audit *audit, const pm_event *event)
 {
-    pm_spectrum albedo = pm_gray(0.0);
-    for (int i = 0; i < event->lobes->count; i++) {
-        grow(&albedo, event->lobes->lobe[i].albedo);
-    }
-    pm_spectrum promised = pm_spectrum_mul(event->entering, albedo);
-    pm_spectrum gap = pm_spectrum_sub(event->chosen, promised);
-    grow(&audit->roulette, gap);
-    grow(&audit->roulette_variance, pm_spectrum_mul(gap, gap));
-    audit->largest = fmax(audit->largest, pm_spectrum_max(event->arriving));
+    pm_spectrum promised = pm_spectrum_mul(event->entering, albedo_at(audit, event));
+    judge(pm_spectrum_sub(event->chosen, promised), &audit->roulette,
+          &audit->roulette_variance);
+    audit->largest = fmax(audit->largest, pm_spectrum_max(event->entering));
+}
+
+/// A wavelength's weight is 1 on average.
+static void judge_dispersion(pm_audit *audit, const pm_event *event)
+{
+    judge(pm_spectrum_sub(event->entering, event->arriving), &audit->dispersion,
+          &audit->dispersion_variance);
 }
 
 static void end_photon(pm_audit *audit, const pm_event *event)
@@ -74,6 +110,17 @@ static void end_photon(pm_audit *audit, const pm_event *event)
     }
 }
 
+static void book_arrival(pm_audit *audit, const pm_event *event)
+{
+    if (event->hit != NULL) {
+        grow(&audit->shapes[event->hit->shape].incident, event->arriving);
+        return;
+    }
+    pm_audit_medium *medium = &audit->media[event->medium];
+    medium->collisions++;
+    grow(&medium->incident, event->arriving);
+}
+
 void pm_audit_event(void *context, const pm_start *start, const pm_event *event)
 {
     (void)start;
@@ -86,20 +133,18 @@ void pm_audit_event(void *context, const pm_start *start, const pm_event *event)
         return;
     }
     audit->events++;
-    pm_audit_shape *shape = event->hit == NULL ? NULL : &audit->shapes[event->hit->shape];
-    if (shape != NULL) {
-        grow(&shape->incident, event->arriving);
-    }
+    book_arrival(audit, event);
     if (event->kind == PM_EVENT_CUT) {
         grow(&audit->lost, event->arriving);
         return;
     }
     pm_spectrum taken = pm_spectrum_sub(event->arriving, event->carried);
     grow(&audit->absorbed, taken);
-    if (shape != NULL) {
-        grow(&shape->absorbed, taken);
-        judge_roulette(audit, event);
-    }
+    grow(event->hit != NULL ? &audit->shapes[event->hit->shape].absorbed
+                            : &audit->media[event->medium].absorbed,
+         taken);
+    judge_dispersion(audit, event);
+    judge_roulette(audit, event);
 }
 
 void pm_audit_emit(pm_audit *audit, const pm_start *starts, uint32_t count)
@@ -126,10 +171,17 @@ void pm_audit_add(pm_audit *audit, const pm_audit *part)
     grow(&audit->lost, part->lost);
     grow(&audit->roulette, part->roulette);
     grow(&audit->roulette_variance, part->roulette_variance);
+    grow(&audit->dispersion, part->dispersion);
+    grow(&audit->dispersion_variance, part->dispersion_variance);
     audit->largest = fmax(audit->largest, part->largest);
-    for (int i = 0; i < audit->shape_count; i++) {
+    for (int i = 0; i < audit->scene->shape_count; i++) {
         grow(&audit->shapes[i].incident, part->shapes[i].incident);
         grow(&audit->shapes[i].absorbed, part->shapes[i].absorbed);
+    }
+    for (int i = 0; i < audit->scene->medium_count; i++) {
+        audit->media[i].collisions += part->media[i].collisions;
+        grow(&audit->media[i].incident, part->media[i].incident);
+        grow(&audit->media[i].absorbed, part->media[i].absorbed);
     }
 }
 
@@ -146,31 +198,56 @@ void pm_audit_scale(pm_audit *audit, double factor)
     shrink(&audit->lost, factor);
     shrink(&audit->roulette, factor);
     shrink(&audit->roulette_variance, factor * factor);
+    shrink(&audit->dispersion, factor);
+    shrink(&audit->dispersion_variance, factor * factor);
     audit->largest *= factor;
-    for (int i = 0; i < audit->shape_count; i++) {
+    for (int i = 0; i < audit->scene->shape_count; i++) {
         shrink(&audit->shapes[i].incident, factor);
         shrink(&audit->shapes[i].absorbed, factor);
     }
+    for (int i = 0; i < audit->scene->medium_count; i++) {
+        shrink(&audit->media[i].incident, factor);
+        shrink(&audit->media[i].absorbed, factor);
+    }
 }
 
-static pm_status check_channel(const pm_audit *audit, int c)
+static const char *const channel_name[3] = {"red", "green", "blue"};
+
+static pm_status check_closed(const pm_audit *audit, int c)
 {
-    static const char *const name[3] = {"red", "green", "blue"};
     double emitted = audit->emitted.c[c];
     double rest = emitted - audit->absorbed.c[c] - audit->escaped.c[c] - audit->lost.c[c];
     if (!(fabs(rest) <= CLOSES_TO * emitted)) {
         return pm_status_fail(
             PM_ELIMIT, "audit: %s power does not close: emitted %.17g W, unaccounted %.3g W",
-            name[c], emitted, rest);
+            channel_name[c], emitted, rest);
     }
+    return PM_OK;
+}
+
+static pm_status check_roulette(const pm_audit *audit, int c)
+{
     double sd = sqrt(audit->roulette_variance.c[c]);
     double chance = SIGMAS * sd + RARE * SURVIVOR_MOST * audit->largest;
-    if (!(fabs(audit->roulette.c[c]) <= chance + CLOSES_TO * emitted)) {
+    if (!(fabs(audit->roulette.c[c]) <= chance + CLOSES_TO * audit->emitted.c[c])) {
         return pm_status_fail(
             PM_ELIMIT,
             "audit: roulette carries on %+.3g W of %s beyond the albedos' promise,"
             " %.1f standard deviations",
-            audit->roulette.c[c], name[c], audit->roulette.c[c] / sd);
+            audit->roulette.c[c], channel_name[c], audit->roulette.c[c] / sd);
+    }
+    return PM_OK;
+}
+
+static pm_status check_dispersion(const pm_audit *audit, int c)
+{
+    double sd = sqrt(audit->dispersion_variance.c[c]);
+    double gap = audit->dispersion.c[c];
+    if (!(fabs(gap) <= SIGMAS * sd + CLOSES_TO * audit->emitted.c[c])) {
+        return pm_status_fail(PM_ELIMIT,
+                              "audit: wavelengths add %+.3g W of %s where their weights should"
+                              " add none, %.1f standard deviations",
+                              gap, channel_name[c], gap / sd);
     }
     return PM_OK;
 }
@@ -183,7 +260,9 @@ pm_status pm_audit_check(const pm_audit *audit)
                               (unsigned long long)audit->photons, (unsigned long long)ended);
     }
     for (int c = 0; c < 3; c++) {
-        PM_TRY(check_channel(audit, c));
+        PM_TRY(check_closed(audit, c));
+        PM_TRY(check_roulette(audit, c));
+        PM_TRY(check_dispersion(audit, c));
     }
     return PM_OK;
 }

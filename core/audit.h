@@ -1,7 +1,8 @@
 // The books of a pass: where the emitted power went, channel by channel, kept outside the
-// stages that move it. emitted = absorbed + escaped + lost holds by construction, so the
-// roulette is judged apart: what it carried on against what the albedos it was given promise,
-// with its own deviation.
+// stages that move it. emitted = absorbed + escaped + lost holds by construction, so two parts
+// of it are judged apart, each with its own deviation: the roulette, by what it carried on
+// against what the albedos it was given promise; and dispersion, which changes a photon's power
+// at every wavelength, but not on average.
 #ifndef PM_AUDIT_H
 #define PM_AUDIT_H
 
@@ -15,18 +16,28 @@ typedef struct {
 } pm_audit_shape;
 
 typedef struct {
+    uint64_t collisions;
+    pm_spectrum incident; // [W] of the photons that collided, over all collisions
+    pm_spectrum absorbed; // [W] signed, as a shape's
+} pm_audit_medium;
+
+typedef struct {
     uint64_t photons;                                   // emitted
     uint64_t ended_absorbed, ended_escaped, ended_lost; // they add up to `photons`
     uint64_t events;                                    // meetings with surfaces and media
     uint64_t bounces[PM_AUDIT_BOUNCES]; // photons by number of events that carried them on
     pm_spectrum emitted, absorbed, escaped, lost; // [W]
     pm_spectrum roulette, roulette_variance;      // sum and the variance of that sum
+    pm_spectrum dispersion, dispersion_variance;  // the same of what wavelengths add
     double largest;         // [W] power in one channel that met a roulette
+    const pm_scene *scene;  // whose media promise their albedos; borrowed
     pm_audit_shape *shapes; // one per scene shape
-    int shape_count;
+    pm_audit_medium *media; // one per medium
 } pm_audit;
 
-pm_status pm_audit_make(int shape_count, pm_audit *audit);
+/// Empty books for `scene`, which must outlive them.
+/// @param audit  [out] free with pm_audit_free() when PM_OK
+pm_status pm_audit_make(const pm_scene *scene, pm_audit *audit);
 void pm_audit_free(pm_audit *audit);
 void pm_audit_clear(pm_audit *audit);
 
@@ -44,8 +55,9 @@ void pm_audit_scale(pm_audit *audit, double factor);
 
 /// Whether the books close: powers to 1e-12 of what was emitted, counts exactly, roulette
 /// within 5 standard deviations and, for surfaces so dark that hardly a photon survives and the
-/// deviation seen says little, 15 survivors more. PM_ELIMIT with a line that says which does
-/// not.
+/// deviation seen says little, 15 survivors more; dispersion within 5. It needs no more: a
+/// channel's weights are rarely far above 1, and n changes never add up to more than sqrt(n)
+/// of the deviations that are taken from them. PM_ELIMIT with a line that says which does not.
 pm_status pm_audit_check(const pm_audit *audit);
 
 #endif

@@ -174,7 +174,7 @@ static pm_status worker_make(const pm_pass *pass, pm_pass_worker **out)
     if (worker == NULL) {
         return PM_FAIL(PM_ENOMEM, "no memory to trace in");
     }
-    pm_status status = pm_audit_make(pass->report->audit.shape_count, &worker->audit);
+    pm_status status = pm_audit_make(pass->emission.scene, &worker->audit);
     if (status != PM_OK) {
         free(worker);
         return status;
@@ -317,7 +317,7 @@ pm_status pm_photon_pass(const pm_intersector *world, pm_map_kind kind,
     pm_pass_report fresh = {0};
     PM_TRY(make_share(scene, &fresh.share));
     pm_photon_map filled = {.kind = kind, .unpacked = settings->unpacked, .scale = 1.0};
-    pm_status status = pm_audit_make(scene->shape_count, &fresh.audit);
+    pm_status status = pm_audit_make(scene, &fresh.audit);
     if (status == PM_OK) {
         status = run(world, kind, settings, &filled, &fresh);
     }

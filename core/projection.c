@@ -16,7 +16,24 @@ typedef struct {
     bool *wanted; // one a shape
     int count;
     const char *example; // id of the first one
+    bool in_fog;         // photons that meet no shape may count: a medium may turn them
 } targets;
+
+/// Whether photons of this light may collide before they meet anything.
+static bool stands_in_fog(const pm_scene *scene, const pm_light *light)
+{
+    return light->medium != PM_NONE && scene->media[light->medium].sigma_t > 0.0;
+}
+
+static bool any_in_fog(const pm_scene *scene)
+{
+    for (int i = 0; i < scene->light_count; i++) {
+        if (stands_in_fog(scene, &scene->lights[i])) {
+            return true;
+        }
+    }
+    return false;
+}
 
 static bool is_specular(const pm_scene *scene, const pm_shape *shape)
 {
@@ -30,17 +47,24 @@ static bool is_specular(const pm_scene *scene, const pm_shape *shape)
     return false;
 }
 
+/// Whether a photon on the way past does not go on as if nothing were there.
+static bool is_met(const pm_scene *scene, const pm_shape *shape)
+{
+    return shape->boundary || !pm_shape_is_null(scene, shape);
+}
+
 static pm_status choose_targets(const pm_scene *scene, pm_map_kind kind, targets *out)
 {
     targets chosen = {.scene = scene};
+    chosen.in_fog = kind != PM_MAP_CAUSTIC && any_in_fog(scene);
     chosen.wanted = calloc((size_t)scene->shape_count + 1, sizeof *chosen.wanted);
     if (chosen.wanted == NULL) {
         return PM_FAIL(PM_ENOMEM, "no memory for %d targets", scene->shape_count);
     }
     for (int i = 0; i < scene->shape_count; i++) {
         const pm_shape *shape = &scene->shapes[i];
-        chosen.wanted[i] = kind == PM_MAP_CAUSTIC ? is_specular(scene, shape)
-                                                  : !pm_shape_is_null(scene, shape);
+        chosen.wanted[i] =
+            kind == PM_MAP_CAUSTIC ? is_specular(scene, shape) : is_met(scene, shape);
         if (chosen.wanted[i] && chosen.count++ == 0) {
             chosen.example = shape->id;
         }
@@ -126,26 +150,29 @@ static void point_at_lists(pm_projections *out)
 }
 
 /// Whether the map of `kind` aims `light` at all.
-static bool is_aimed(const pm_light *light, pm_map_kind kind)
+static bool is_aimed(const pm_scene *scene, const pm_light *light, pm_map_kind kind)
 {
-    bool spread = light->type == PM_LIGHT_AREA || light->type == PM_LIGHT_CONSTANT;
+    bool spread = light->type == PM_LIGHT_AREA || light->type == PM_LIGHT_CONSTANT ||
+                  stands_in_fog(scene, light);
     return !pm_spectrum_is_black(light->flux) && (kind == PM_MAP_CAUSTIC || !spread);
 }
 
 // --- all lights --------------------------------------------------------------------------
 
 /// Every light with nothing to reach: one dark cell each.
-static void send_nothing(pm_projections *out)
+static void send_nothing(const targets *aim, pm_projections *out)
 {
     for (int i = 0; i < out->light_count; i++) {
-        out->light[i] = (pm_projection){.rows = 1, .columns = 1};
+        if (!aim->in_fog || !stands_in_fog(aim->scene, &aim->scene->lights[i])) {
+            out->light[i] = (pm_projection){.rows = 1, .columns = 1};
+        }
     }
 }
 
 static bool aims_any(const pm_scene *scene, pm_map_kind kind)
 {
     for (int i = 0; i < scene->light_count; i++) {
-        if (is_aimed(&scene->lights[i], kind)) {
+        if (is_aimed(scene, &scene->lights[i], kind)) {
             return true;
         }
     }
@@ -156,7 +183,7 @@ static pm_status aim_all(const pm_scene *scene, pm_map_kind kind, const targets 
                          pm_projections *out)
 {
     if (aim->count == 0) {
-        send_nothing(out);
+        send_nothing(aim, out);
         return PM_OK;
     }
     if (!aims_any(scene, kind)) {
@@ -169,7 +196,7 @@ static pm_status aim_all(const pm_scene *scene, pm_map_kind kind, const targets 
     for (int i = 0; i < scene->light_count && status == PM_OK; i++) {
         const pm_light *light = &scene->lights[i];
         pm_cells cells;
-        if (!is_aimed(light, kind) || !pm_cells_begin(scene, light, &cells)) {
+        if (!is_aimed(scene, light, kind) || !pm_cells_begin(scene, light, &cells)) {
             continue;
         }
         light_cells(&cut, light, scene->shape_count, &cells);
@@ -208,8 +235,9 @@ static void settle(const targets *aim, pm_projections *out)
     if (out->cells == 0) {
         pm_projection_free(out);
         out->sent = 1.0;
-        snprintf(out->why, sizeof out->why,
-                 "no light gains by aiming: photons are sent everywhere");
+        snprintf(out->why, sizeof out->why, "%s: photons are sent everywhere",
+                 aim->in_fog ? "the medium around the lights may turn light anywhere"
+                             : "no light gains by aiming");
     } else if (saved < PAYS_FROM) {
         pm_projection_free(out);
         out->sent = 1.0;
@@ -246,12 +274,6 @@ static pm_status make(const pm_scene *scene, pm_map_kind kind, const targets *ai
 
 pm_status pm_projection_make(const pm_scene *scene, pm_map_kind kind, pm_projections *out)
 {
-    if (kind != PM_MAP_CAUSTIC && scene->medium_count > 0) {
-        *out = (pm_projections){
-            .sent = 1.0,
-            .why = "a medium may scatter light anywhere: photons are sent everywhere"};
-        return PM_OK;
-    }
     targets aim = {0};
     PM_TRY(choose_targets(scene, kind, &aim));
     pm_status status = make(scene, kind, &aim, out);

@@ -23,10 +23,12 @@ typedef struct {
 
 /// Aims the lights for the map of `kind`.
 ///
-/// Caustic map: at shapes with an S lobe. Other maps: point, spot and directional lights at
-/// whatever there is. Lights whose directions hang on the place that they start from (spheres,
-/// cylinders and meshes that shine) and the constant light send everywhere. Where less than a
-/// quarter of all power would be saved, nothing is aimed.
+/// Caustic map: at shapes with an S lobe; what a medium turns on the way there is no caustic.
+/// Other maps: point, spot and directional lights at whatever there is, surfaces that only
+/// bound a medium too; but a light that stands in a medium sends everywhere, as its photons may
+/// collide before they meet any shape. Lights whose directions hang on the place that they
+/// start from (spheres, cylinders and meshes that shine) and the constant light send
+/// everywhere. Where less than a quarter of all power would be saved, nothing is aimed.
 ///
 /// @param out  [out] free with pm_projection_free() when PM_OK
 /// @return PM_ENOMEM

@@ -59,8 +59,9 @@ json_t *pm_report_flux(const pm_audit *audit)
     flux = pm_report_add(flux, "roulette", pm_report_spectrum(audit->roulette));
     flux = pm_report_add(flux, "roulette_sd",
                          pm_report_spectrum(deviation(audit->roulette_variance)));
-    flux = pm_report_add(flux, "dispersion", pm_report_spectrum(pm_gray(0.0)));
-    return pm_report_add(flux, "dispersion_sd", pm_report_spectrum(pm_gray(0.0)));
+    flux = pm_report_add(flux, "dispersion", pm_report_spectrum(audit->dispersion));
+    return pm_report_add(flux, "dispersion_sd",
+                         pm_report_spectrum(deviation(audit->dispersion_variance)));
 }
 
 json_t *pm_report_plan(const pm_plan *plan)
@@ -68,9 +69,9 @@ json_t *pm_report_plan(const pm_plan *plan)
     json_t *object = json_object();
     for (pm_plan_part part = 0; part < PM_PLAN_COUNT; part++) {
         const pm_plan_item *item = &plan->item[part];
-        json_t *entry =
-            json_pack("{s:b,s:s,s:s,s:s?}", "needed", item->needed, "why", item->why, "paths",
-                      pm_plan_paths(plan, part), "missing", item->missing ? item->left_out : NULL);
+        json_t *entry = json_pack("{s:b,s:s,s:s,s:s?}", "needed", item->needed, "why",
+                                  item->why, "paths", pm_plan_paths(plan, part), "missing",
+                                  item->missing ? item->left_out : NULL);
         object = pm_report_add(object, pm_plan_name(part), entry);
     }
     return object;
@@ -121,6 +122,19 @@ json_t *pm_report_by_shape(const pm_scene *scene, const pm_audit *audit)
         entry = pm_report_add(entry, "incident", pm_report_spectrum(books->incident));
         entry = pm_report_add(entry, "absorbed", pm_report_spectrum(books->absorbed));
         object = pm_report_add(object, scene->shapes[i].id, entry);
+    }
+    return object;
+}
+
+json_t *pm_report_by_medium(const pm_scene *scene, const pm_audit *audit)
+{
+    json_t *object = json_object();
+    for (int i = 0; i < scene->medium_count; i++) {
+        const pm_audit_medium *books = &audit->media[i];
+        json_t *entry = json_pack("{s:I}", "collisions", (json_int_t)books->collisions);
+        entry = pm_report_add(entry, "incident", pm_report_spectrum(books->incident));
+        entry = pm_report_add(entry, "absorbed", pm_report_spectrum(books->absorbed));
+        object = pm_report_add(object, scene->media[i].id, entry);
     }
     return object;
 }

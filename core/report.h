@@ -38,6 +38,9 @@ json_t *pm_report_photons(const uint64_t photons[PM_MAP_COUNT]);
 /// {id: {incident[3], absorbed[3]}, ..} in W.
 json_t *pm_report_by_shape(const pm_scene *scene, const pm_audit *audit);
 
+/// {id: {collisions, incident[3], absorbed[3]}, ..}, powers in W.
+json_t *pm_report_by_medium(const pm_scene *scene, const pm_audit *audit);
+
 /// {emitted, stored, power[3], refused, clamped, vanished, bytes} of one map.
 json_t *pm_report_map(const pm_photon_map *map);
 

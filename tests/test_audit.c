@@ -8,6 +8,9 @@
 
 static const pm_rng_source source = {.seed = 7, .stream = PM_STREAM_TEST};
 
+static pm_medium media[2] = {{.albedo = {{0.5, 0.25, 0.0}}}, {.albedo = {{1.0, 1.0, 1.0}}}};
+static const pm_scene scene = {.shape_count = 3, .media = media, .medium_count = 2};
+
 static pm_lobes lobes_of(pm_spectrum albedo)
 {
     return (pm_lobes){.lobe = {{PM_LOBE_DIFFUSE, false, albedo}}, .count = 1, .diffuse = true};
@@ -15,7 +18,7 @@ static pm_lobes lobes_of(pm_spectrum albedo)
 
 static void open_books(pm_audit *audit)
 {
-    CHECK_OK(pm_audit_make(3, audit));
+    CHECK_OK(pm_audit_make(&scene, audit));
 }
 
 static void send(pm_audit *audit, pm_spectrum power)
@@ -125,7 +128,7 @@ static void books_add_and_scale(void)
     CHECK_OK(pm_audit_check(&sum));
     pm_audit_clear(&part);
     CHECK(part.photons == 0 && part.events == 0 && part.bounces[0] == 0);
-    CHECK(part.shape_count == 3 && part.shapes[0].incident.c[0] == 0.0);
+    CHECK(part.scene == &scene && part.shapes[0].incident.c[0] == 0.0);
     CHECK_OK(pm_audit_check(&part));
     pm_audit_free(&sum);
     pm_audit_free(&part);

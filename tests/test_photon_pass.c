@@ -39,14 +39,17 @@ static bool same_power(const pm_spectrum *a, const pm_spectrum *b)
 
 static bool same_books(const pm_audit *a, const pm_audit *b)
 {
-    size_t shapes = (size_t)a->shape_count * sizeof *a->shapes;
+    size_t shapes = (size_t)a->scene->shape_count * sizeof *a->shapes;
+    size_t media = (size_t)a->scene->medium_count * sizeof *a->media;
     return a->photons == b->photons && a->events == b->events &&
            memcmp(a->bounces, b->bounces, sizeof a->bounces) == 0 &&
            same_power(&a->emitted, &b->emitted) && same_power(&a->absorbed, &b->absorbed) &&
            same_power(&a->escaped, &b->escaped) && same_power(&a->lost, &b->lost) &&
            same_power(&a->roulette, &b->roulette) &&
            same_power(&a->roulette_variance, &b->roulette_variance) &&
-           memcmp(a->shapes, b->shapes, shapes) == 0;
+           same_power(&a->dispersion, &b->dispersion) &&
+           same_power(&a->dispersion_variance, &b->dispersion_variance) &&
+           memcmp(a->shapes, b->shapes, shapes) == 0 && memcmp(a->media, b->media, media) == 0;
 }
 
 static void check_threads(pm_map_kind kind, pm_pass_settings settings)

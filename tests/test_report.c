@@ -59,12 +59,14 @@ static void flux_has_the_keys_of_the_contract(void)
                       .escaped = pm_gray(0.75),
                       .lost = pm_gray(0.25),
                       .roulette = pm_rgb(-1.0, 0.0, 1.0),
-                      .roulette_variance = pm_rgb(4.0, 9.0, 0.25)};
+                      .roulette_variance = pm_rgb(4.0, 9.0, 0.25),
+                      .dispersion = pm_rgb(0.5, -0.5, 0.0),
+                      .dispersion_variance = pm_rgb(1.0, 0.25, 0.0)};
     check_dump(pm_report_flux(&audit),
                "{\"emitted\":[4.0,4.0,4.0],\"absorbed\":[3.0,3.0,3.0],"
                "\"escaped\":[0.75,0.75,0.75],\"lost\":[0.25,0.25,0.25],"
                "\"roulette\":[-1.0,0.0,1.0],\"roulette_sd\":[2.0,3.0,0.5],"
-               "\"dispersion\":[0.0,0.0,0.0],\"dispersion_sd\":[0.0,0.0,0.0]}");
+               "\"dispersion\":[0.5,-0.5,0.0],\"dispersion_sd\":[1.0,0.5,0.0]}");
 }
 
 static void plan_says_what_and_why(void)
@@ -122,9 +124,22 @@ static void lights_and_shapes_go_by_id(void)
                "\"photons\":3000000000},{\"id\":\"area@7\",\"type\":\"area\","
                "\"flux\":[1.0,1.0,1.0],\"photons\":5}]");
     pm_audit_shape books = {.incident = pm_gray(1.0), .absorbed = pm_gray(0.5)};
-    pm_audit audit = {.shapes = &books, .shape_count = 1};
+    pm_audit audit = {.shapes = &books};
     check_dump(pm_report_by_shape(&scene, &audit),
                "{\"floor\":{\"incident\":[1.0,1.0,1.0],\"absorbed\":[0.5,0.5,0.5]}}");
+}
+
+static void media_go_by_id(void)
+{
+    pm_medium media[2] = {{.id = "fog"}, {.id = "medium@12"}};
+    pm_scene scene = {.media = media, .medium_count = 2};
+    pm_audit_medium books[2] = {
+        {.collisions = 5000000000u, .incident = pm_gray(2.0), .absorbed = pm_gray(0.5)}};
+    pm_audit audit = {.media = books};
+    check_dump(pm_report_by_medium(&scene, &audit),
+               "{\"fog\":{\"collisions\":5000000000,\"incident\":[2.0,2.0,2.0],"
+               "\"absorbed\":[0.5,0.5,0.5]},\"medium@12\":{\"collisions\":0,"
+               "\"incident\":[0.0,0.0,0.0],\"absorbed\":[0.0,0.0,0.0]}}");
 }
 
 static void nan_is_no_json(void)
@@ -146,6 +161,8 @@ static void a_report_that_cannot_be_written_is_told(void)
 }
 
 PM_TESTS({"report.1", "a double comes back from JSON with every bit", doubles_keep_every_bit},
+         {"report.9", "media are reported by their ids, collisions beyond 32 bits too",
+          media_go_by_id},
          {"report.2", "keys stand in the order in which they were added",
           keys_keep_their_order},
          {"report.3", "flux has the keys of the contract, deviations as roots",

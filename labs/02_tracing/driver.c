@@ -18,8 +18,8 @@ static const pm_options_program program = {
     .options = "n projection photon roulette max-bounces dump report",
     .notes =
         "--dump writes every vertex of every path as photon,step,event,x,y,z,r,g,b; events\n"
-        "are L light, S specular, D diffuse, A absorbed, E escaped, C cut; r,g,b is the\n"
-        "power [W] that goes on.",
+        "are L light, S specular, D diffuse, V in a medium, A absorbed, E escaped, C cut;\n"
+        "r,g,b is the power [W] that goes on. Deposits are those of the global map.",
 };
 
 typedef struct {
@@ -50,8 +50,18 @@ static const char *happened(const pm_event *event)
     default:
         return event->scatter == 'S'   ? "turns (specular)"
                : event->scatter == 'D' ? "turns (diffuse)"
+               : event->scatter == 'V' ? "turns (medium)"
                                        : "is absorbed";
     }
+}
+
+/// The id of the shape or medium that it happened at, "-" outside.
+static const char *place(const pm_scene *scene, const pm_event *event)
+{
+    if (event->hit != NULL) {
+        return scene->shapes[event->hit->shape].id;
+    }
+    return event->medium != PM_NONE ? scene->media[event->medium].id : "-";
 }
 
 static void show_event(void *context, const pm_start *start, const pm_event *event)
@@ -59,7 +69,7 @@ static void show_event(void *context, const pm_start *start, const pm_event *eve
     pm_replay *replay = context;
     const pm_scene *scene = &replay->job->world.scene;
     double scale = 1.0 / (double)replay->job->settings.count;
-    const char *shape = event->hit == NULL ? "-" : scene->shapes[event->hit->shape].id;
+    const char *where = place(scene, event);
     pm_vec3 at = pm_vec_add(event->position, scene->center);
     pm_spectrum in = pm_spectrum_scale(event->arriving, scale);
     bool lines = !replay->job->options->json;
@@ -69,11 +79,12 @@ static void show_event(void *context, const pm_start *start, const pm_event *eve
     }
     if (lines) {
         printf("%4u  %-18s %-16s at %10.6g %10.6g %10.6g  with %.6g %.6g %.6g W\n",
-               event->bounce, happened(event), shape, at.x, at.y, at.z, in.c[0], in.c[1],
+               event->bounce, happened(event), where, at.x, at.y, at.z, in.c[0], in.c[1],
                in.c[2]);
     }
-    json_t *entry = json_pack("{s:i,s:s,s:s}", "bounce", (int)event->bounce, "event",
-                              happened(event), "shape", shape);
+    json_t *entry =
+        json_pack("{s:i,s:s,s:s}", "bounce", (int)event->bounce, "event", happened(event),
+                  event->medium == PM_NONE ? "shape" : "medium", where);
     entry = pm_report_add(entry, "position", pm_report_vector(at));
     entry = pm_report_add(entry, "arriving", pm_report_spectrum(in));
     entry = pm_report_add(entry, "carried",
@@ -119,6 +130,23 @@ static double deposits_each(const pm_pass_report *pass)
     return pass->emitted == 0 ? 0.0 : (double)pass->deposits / (double)pass->emitted;
 }
 
+static void print_power(const char *name, const pm_spectrum *power)
+{
+    printf("%-12s %14.6g %14.6g %14.6g\n", name, power->c[0], power->c[1], power->c[2]);
+}
+
+static void print_media(const pm_scene *scene, const pm_audit *audit)
+{
+    for (int i = 0; i < scene->medium_count; i++) {
+        const pm_audit_medium *books = &audit->media[i];
+        printf("%s: %llu collisions, %.4f a photon\n", scene->media[i].id,
+               (unsigned long long)books->collisions,
+               audit->photons == 0 ? 0.0 : (double)books->collisions / (double)audit->photons);
+        print_power(" incident", &books->incident);
+        print_power(" absorbed", &books->absorbed);
+    }
+}
+
 static void print_books(const pm_job *job)
 {
     const pm_pass_report *pass = &job->pass;
@@ -134,9 +162,12 @@ static void print_books(const pm_job *job)
                 {"escaped", &audit->escaped},   {"lost", &audit->lost},
                 {"roulette", &audit->roulette}, {"never sent", &job->aim.dark}};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        const double *c = rows[i].power->c;
-        printf("%-12s %14.6g %14.6g %14.6g\n", rows[i].name, c[0], c[1], c[2]);
+        print_power(rows[i].name, rows[i].power);
     }
+    if (!pm_spectrum_is_black(audit->dispersion_variance)) {
+        print_power("dispersion", &audit->dispersion);
+    }
+    print_media(&job->world.scene, audit);
 }
 
 static pm_status report(const pm_job *job)
@@ -153,6 +184,10 @@ static pm_status report(const pm_job *job)
     object = pm_report_add(object, "flux", pm_report_flux(&pass->audit));
     object =
         pm_report_add(object, "by_shape", pm_report_by_shape(&job->world.scene, &pass->audit));
+    if (job->world.scene.medium_count > 0) {
+        object = pm_report_add(object, "by_medium",
+                               pm_report_by_medium(&job->world.scene, &pass->audit));
+    }
     object =
         pm_report_add(object, "projection", pm_report_projection(&job->aim, pass->emitted));
     object = pm_report_add(object, "notes", pm_report_notes(&job->world.scene));
