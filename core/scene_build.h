@@ -29,4 +29,8 @@ void pm_scene_build_lights(pm_scene_file *source);
 /// scene.camera, has_camera and camera_origin.
 void pm_scene_build_camera(pm_scene_file *source);
 
+/// Drops the media that no shape, light or camera refers to, with a note for each: they cost
+/// nothing then, and the scene is the one without them.
+void pm_scene_drop_media(pm_scene_file *source);
+
 #endif

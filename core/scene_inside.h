@@ -1,14 +1,28 @@
-// Which medium the camera and the lights stand in, found from the shapes that part media.
+// Which medium a point of the centred scene is in. Only shapes that part media decide.
 #ifndef PM_SCENE_INSIDE_H
 #define PM_SCENE_INSIDE_H
 
+#include "intersect.h"
 #include "scene_file.h"
 
-/// Of the centred scene: the medium of the camera and of every light, which hold what the file
-/// names for them so far; then drops media that nothing is in.
-///
-/// A fault: shapes that do not close, an area light in two media, another medium named than
-/// found, light from outside the scene through a medium without end.
-void pm_scene_inside(pm_scene_file *source);
+typedef struct {
+    pm_scene bounds;      // the scene with nothing but the shapes that part media
+    pm_intersector world; // of bounds
+} pm_scene_inside;
+
+/// What was found at a point.
+typedef struct {
+    int medium;              // or PM_NONE
+    const pm_shape *by;      // a shape that tells of it; NULL when none was met
+    int other;               // another medium that another shape tells of
+    const pm_shape *against; // that shape; NULL when they all agree
+} pm_scene_place;
+
+/// Makes ready for questions, which share the memory of `source`. Release with
+/// pm_intersector_free() of its `world`. False without memory.
+bool pm_scene_inside_begin(pm_scene_file *source, pm_scene_inside *inside);
+
+/// Along 16 lines from `from` to points on the shapes, always the same ones.
+pm_scene_place pm_scene_inside_at(const pm_scene_inside *inside, pm_vec3 from);
 
 #endif

@@ -67,12 +67,13 @@ static void read_metal(pm_scene_file *source, const pm_xml *bsdf, pm_material *m
 static const pm_glass *read_instruction(pm_scene_file *source, const pm_xml *instruction)
 {
     const char *text = pm_xml_attribute(instruction, "text");
+    char word[8] = "";
     char name[64] = "";
+    char more[2];
     if (text == pm_xml_faulty) {
         return NULL;
     }
-    if (sscanf(text, "glass %63s", name) != 1 ||
-        strlen(name) + strlen("glass ") < strlen(text)) {
+    if (sscanf(text, "%7s %63s %1s", word, name, more) != 2 || strcmp(word, "glass") != 0) {
         PM_FAULT(source, instruction,
                  "<?photonlab %.60s?> is not known; what is known is <?photonlab glass NAME?>",
                  text);

@@ -1,5 +1,5 @@
 // Every medium of the file is read, whether something uses it or not, so that a fault in any of
-// them is found; scene_inside drops what nothing uses. Defaults are Mitsuba's.
+// them is found; what nothing uses is dropped at the end. Defaults are Mitsuba's.
 #include "scene_build.h"
 #include "scene_value.h"
 
@@ -174,4 +174,56 @@ int pm_scene_build_stand(pm_scene_file *source, const pm_xml *object)
 {
     const pm_xml *medium = only_one(source, object, "medium");
     return medium == NULL ? PM_NONE : medium->index;
+}
+
+/// Calls `each` with every place where an index of a medium stands.
+static void each_stand(pm_scene *scene, void (*each)(int *medium, int *table), int *table)
+{
+    for (int i = 0; i < scene->shape_count; i++) {
+        each(&scene->shapes[i].interior, table);
+        each(&scene->shapes[i].exterior, table);
+    }
+    for (int i = 0; i < scene->light_count; i++) {
+        each(&scene->lights[i].medium, table);
+    }
+    if (scene->has_camera) {
+        each(&scene->camera.medium, table);
+    }
+}
+
+static void mark(int *medium, int *table)
+{
+    if (*medium != PM_NONE) {
+        table[*medium] = 1;
+    }
+}
+
+static void rename_by(int *medium, int *table)
+{
+    *medium = *medium == PM_NONE ? PM_NONE : table[*medium];
+}
+
+void pm_scene_drop_media(pm_scene_file *source)
+{
+    pm_scene *scene = &source->scene;
+    int *table = pm_arena_take(&source->tree, (size_t)scene->medium_count, sizeof *table);
+    if (table == NULL) {
+        pm_faults_fail(&source->faults, PM_ENOMEM);
+        return;
+    }
+    each_stand(scene, mark, table);
+    for (pm_xml *e = source->root; e != NULL; e = pm_xml_following(source->root, e)) {
+        if (strcmp(e->tag, "medium") == 0 && table[e->index] == 0) {
+            pm_scene_file_note(source, e, "nothing is in this medium: it is not used");
+        }
+    }
+    int kept = 0;
+    for (int i = 0; i < scene->medium_count; i++) {
+        if (table[i] != 0) {
+            scene->media[kept] = scene->media[i];
+            table[i] = kept++;
+        }
+    }
+    scene->medium_count = kept;
+    each_stand(scene, rename_by, table);
 }

@@ -8,7 +8,7 @@
 #include "scene_center.h"
 #include "scene_check.h"
 #include "scene_hash.h"
-#include "scene_inside.h"
+#include "scene_stand.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -43,7 +43,7 @@ static pm_status read_into(pm_scene_file *source, const char *path, const pm_def
     }
     if (pm_faults_none(&source->faults)) {
         pm_scene_center(source);
-        pm_scene_inside(source);
+        pm_scene_stand(source);
         source->scene.hash = pm_scene_hash(&source->scene);
     }
     return pm_faults_report(&source->faults);

@@ -156,14 +156,6 @@ static void build_cube(pm_scene_file *source, const pm_transform *to_world, pm_s
     place_mesh(to_world, shape);
 }
 
-/// The path of a mesh, from the folder of the file that names it.
-static const char *mesh_path(pm_scene_file *source, const pm_xml *element, const char *name)
-{
-    const char *slash = strrchr(element->file, '/');
-    int folder = name[0] == '/' || slash == NULL ? 0 : (int)(slash - element->file) + 1;
-    return pm_arena_print(&source->tree, "%.*s%s", folder, element->file, name);
-}
-
 static void build_mesh(pm_scene_file *source, const pm_xml *element, pm_mesh_format format,
                        const pm_transform *to_world, pm_shape *shape)
 {
@@ -179,7 +171,7 @@ static void build_mesh(pm_scene_file *source, const pm_xml *element, pm_mesh_for
         return;
     }
     const pm_xml *at = pm_scene_value_find(element, "filename");
-    const char *path = mesh_path(source, element, name);
+    const char *path = pm_xml_beside(&source->tree, element->file, name);
     char reason[PM_MESH_REASON] = "";
     pm_mesh mesh = {0};
     pm_status status =

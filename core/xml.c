@@ -94,8 +94,7 @@ static const char **own_attributes(const layer *file, const char **given)
     return own;
 }
 
-/// Both attributes that <default> and <include> live by; a fault when one is missing or
-/// unknown.
+/// The value of `name`; a fault without it, and at attributes but it and `other`.
 static const char *only_attribute(const layer *file, const pm_xml *element, const char *name,
                                   const char *other)
 {
@@ -124,14 +123,6 @@ static void give_default(const layer *file, const pm_xml *element)
     }
 }
 
-/// `name` as seen from the folder of `file`.
-static const char *beside(const layer *file, const char *name)
-{
-    const char *slash = strrchr(file->path, '/');
-    int folder = name[0] == '/' || slash == NULL ? 0 : (int)(slash - file->path) + 1;
-    return pm_arena_print(file->all->arena, "%.*s%s", folder, file->path, name);
-}
-
 static void include(layer *file, const pm_xml *element)
 {
     const char *name = only_attribute(file, element, "filename", "filename");
@@ -145,7 +136,7 @@ static void include(layer *file, const pm_xml *element)
         return;
     }
     layer *inner = calloc(1, sizeof *inner);
-    const char *path = beside(file, name);
+    const char *path = pm_xml_beside(file->all->arena, file->path, name);
     if (inner == NULL || path == NULL) {
         free(inner);
         stop_without_memory(file);
@@ -162,10 +153,12 @@ static void include(layer *file, const pm_xml *element)
     }
 }
 
+/// NULL without memory, and then reading stops.
 static pm_xml *new_element(const layer *file, const char *tag, const char **attributes)
 {
     pm_xml *element = pm_arena_take(file->all->arena, 1, sizeof *element);
     if (element == NULL) {
+        stop_without_memory(file);
         return NULL;
     }
     element->tag = pm_arena_copy(file->all->arena, tag, strlen(tag));
@@ -173,7 +166,11 @@ static pm_xml *new_element(const layer *file, const char *tag, const char **attr
     element->file = file->path;
     element->line = line_of(file);
     element->index = PM_NONE;
-    return element->tag == NULL || element->attributes == NULL ? NULL : element;
+    if (element->tag != NULL && element->attributes != NULL) {
+        return element;
+    }
+    stop_without_memory(file);
+    return NULL;
 }
 
 static void check_root(layer *file, pm_xml *element)
@@ -193,9 +190,12 @@ static void check_root(layer *file, pm_xml *element)
     }
 }
 
-/// Takes its place in the tree, or is done with here.
+/// Takes its place in the tree, or is done with here; NULL was reported.
 static void place(layer *file, pm_xml *element)
 {
+    if (element == NULL) {
+        return;
+    }
     if (file->depth == 0) {
         check_root(file, element);
         return;
@@ -225,12 +225,9 @@ static void XMLCALL begin(void *context, const XML_Char *tag, const XML_Char **a
         return;
     }
     pm_xml *element = new_element(file, tag, attributes);
-    if (element == NULL) {
-        stop_without_memory(file);
-        return;
-    }
     place(file, element);
-    file->open[file->depth++] = element;
+    file->open[file->depth] = element;
+    file->depth += element != NULL;
 }
 
 static void XMLCALL end(void *context, const XML_Char *tag)
@@ -257,20 +254,13 @@ static void XMLCALL text(void *context, const XML_Char *bytes, int length)
 static void XMLCALL instruction(void *context, const XML_Char *target, const XML_Char *data)
 {
     layer *file = context;
-    if (strcmp(target, "photonlab") != 0) {
-        return;
-    }
-    if (file->depth == 0) {
+    bool ours = strcmp(target, "photonlab") == 0;
+    if (ours && file->depth == 0) {
         FAULT(file, "<?photonlab %.60s?> stands outside <scene>", data);
-        return;
+    } else if (ours) {
+        const char *attributes[] = {"text", data, NULL};
+        place(file, new_element(file, PM_XML_INSTRUCTION, attributes));
     }
-    const char *attributes[3] = {"text", data, NULL};
-    pm_xml *element = new_element(file, PM_XML_INSTRUCTION, attributes);
-    if (element == NULL) {
-        stop_without_memory(file);
-        return;
-    }
-    place(file, element);
 }
 
 static void XMLCALL document_type(void *context, const XML_Char *name, const XML_Char *system,

@@ -47,6 +47,10 @@ pm_xml *pm_xml_read(const char *path, const pm_define *defines, int define_count
 /// The value of an attribute, or NULL.
 const char *pm_xml_attribute(const pm_xml *element, const char *name);
 
+/// The path of `name` as a file at `path` means it: from the folder of that file. Taken from
+/// `arena`; NULL without memory.
+const char *pm_xml_beside(pm_arena *arena, const char *path, const char *name);
+
 /// Makes `element` the last one inside `parent`.
 void pm_xml_append(pm_xml *parent, pm_xml *element);
 

@@ -15,6 +15,13 @@ const char *pm_xml_attribute(const pm_xml *element, const char *name)
     return NULL;
 }
 
+const char *pm_xml_beside(pm_arena *arena, const char *path, const char *name)
+{
+    const char *slash = strrchr(path, '/');
+    int folder = name[0] == '/' || slash == NULL ? 0 : (int)(slash - path) + 1;
+    return pm_arena_print(arena, "%.*s%s", folder, path, name);
+}
+
 void pm_xml_append(pm_xml *parent, pm_xml *element)
 {
     element->parent = parent;
