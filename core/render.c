@@ -181,13 +181,16 @@ static pm_status run_eye_pass(pm_eye_pass *pass)
     return pm_tiles_run(&tiles);
 }
 
-static void look_over(const pm_picture *picture, size_t pixels, pm_eye_report *report)
+void pm_render_look_over(const pm_image *image, pm_eye_report *report)
 {
+    pm_picture picture = pm_picture_planes(image);
+    size_t pixels = (size_t)image->width * (size_t)image->height;
     report->black = true;
+    report->too_bright = 0;
     for (size_t i = 0; i < pixels; i++) {
         bool finite = true;
         for (int c = 0; c < 3; c++) {
-            float value = picture->total[c][i];
+            float value = picture.total[c][i];
             finite = finite && isfinite(value);
             report->black = report->black && value == 0.0f;
         }
@@ -216,7 +219,7 @@ pm_status pm_render_image(const pm_intersector *world, const pm_render_settings 
         pm_image_free(&made);
         return status;
     }
-    look_over(&pass.picture, (size_t)made.width * (size_t)made.height, &counts);
+    pm_render_look_over(&made, &counts);
     counts.seconds = pm_seconds_now() - start;
     counts.cpu = pm_cpu_seconds_now() - cpu_start;
     *image = made;

@@ -106,4 +106,8 @@ void pm_render_maps_free(pm_render_maps *maps);
 pm_status pm_render_image(const pm_intersector *world, const pm_render_settings *settings,
                           const pm_render_maps *maps, pm_image *image, pm_eye_report *report);
 
+/// Says of a rendered picture which pixels are beyond a float and whether all are black.
+/// @param report  [out] too_bright and black only
+void pm_render_look_over(const pm_image *image, pm_eye_report *report);
+
 #endif
