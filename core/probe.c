@@ -28,14 +28,15 @@ static pm_status make_room(pm_probes *probes, uint64_t count)
 static pm_status from_options(const char *program, const pm_options *options,
                               const pm_scene *scene, pm_probes *probes)
 {
-    if (!options->has_normal) {
+    if (!options->has_normal && scene->medium_count == 0) {
         return pm_status_fail(PM_EINPUT, "%s: --at needs --normal X,Y,Z, the side looked at",
                               program);
     }
     PM_TRY(make_room(probes, 1));
     probes->points[0].at = pm_vec_sub(options->at, scene->center);
-    probes->points[0].normal = options->normal;
+    probes->points[0].normal = options->has_normal ? options->normal : pm_vec(0.0, 0.0, 0.0);
     probes->count = probes->columns = 1;
+    probes->free = !options->has_normal;
     return PM_OK;
 }
 

@@ -11,12 +11,14 @@ typedef struct {
     pm_estimate_point *points; // centred coordinates
     uint32_t count;
     uint32_t columns; // count when there is no grid
+    bool free;        // one point without a normal, as it may lie in a medium
 } pm_probes;
 
 /// What `options` ask for.
 ///
 /// A grid has its points in the middles of equal cells; the first of its two numbers counts
-/// along the rectangle's first edge. Its normals are the rectangle's.
+/// along the rectangle's first edge. Its normals are the rectangle's. In a scene that has media
+/// --at may stand without --normal; whether the point lies in one is not looked at.
 ///
 /// @param program  its name, for messages
 /// @param probes   [out] untouched unless PM_OK; free with pm_probes_free()

@@ -24,11 +24,13 @@ static const pm_options_program program = {
     .positional_most = 1,
     .options = "n global-photons caustic-photons projection roulette max-bounces packing o "
                "dump check-file report",
-    .notes = "-o FILE.ply writes the global map; a caustic map, where the scene has caustics,\n"
-             "goes beside it as FILE.caustic.ply. Their x y z are the scene's less the centre\n"
-             "that a comment in their header names; --dump writes the scene's own.\n"
+    .notes = "-o FILE.ply writes the global map; a caustic and a volume map, where the scene\n"
+             "needs them, go beside it as FILE.caustic.ply and FILE.volume.ply. Their x y z\n"
+             "are the scene's less the centre that a comment in their header names; --dump\n"
+             "writes the scene's own.\n"
              "--dump writes the photons as x,y,z,dx,dy,dz,r,g,b,map,path,bounce,light; path\n"
-             "spells the events from the light to the deposit (L, S specular, D diffuse).",
+             "spells the events from the light to the deposit (L, S specular, D diffuse, V in\n"
+             "a medium).",
 };
 
 /// What packing changed, over all photons of all maps.

@@ -27,7 +27,8 @@ static const pm_options_program program = {
     .notes =
         "-o writes the balanced map. Searches are around photons of the map, without side\n"
         "test. height counts the links from the root to the deepest photon; unbalanced is\n"
-        "a tree that photons are inserted into as they come.",
+        "a tree that photons are inserted into as they come. Of a scene with media the global\n"
+        "map is taken, too: trees of volume maps are made the same way.",
 };
 
 typedef struct {

@@ -1,6 +1,7 @@
 // radiance: the irradiance at points, from the nearest photons of one or several independent
-// global maps.
+// global maps; or the fluence at a point in a medium, from volume maps.
 #include "file.h"
+#include "inside.h"
 #include "interrupt.h"
 #include "map_make.h"
 #include "photon_map.h"
@@ -15,7 +16,8 @@
 
 static const pm_options_program program = {
     .name = "radiance",
-    .does = "Estimates irradiance [W/m^2] at points of a scene from its global photon map.",
+    .does = "Estimates irradiance [W/m^2] at points of a scene from its global photon map, or "
+            "fluence [W/m^2] at a point in a medium from its volume map.",
     .positional = "SCENE",
     .positional_least = 1,
     .positional_most = 1,
@@ -23,7 +25,9 @@ static const pm_options_program program = {
         "n " PM_OPTIONS_ESTIMATE
         " at normal points on grid runs dump projection roulette max-bounces packing report",
     .notes =
-        "Give one of --at with --normal, --points, and --on with --grid. --dump writes the\n"
+        "Give one of --at with --normal, --points, and --on with --grid. --at without\n"
+        "--normal asks for the fluence in the medium there: radiance from all around, summed\n"
+        "up; the photons of a ball, whatever --shape and --filter say. --dump writes the\n"
         "points as i,j,x,y,z,nx,ny,nz,r,g,b,radius,found, row by row; with --runs all\n"
         "values are means over the runs, and sd is the deviation of one run.",
 };
@@ -39,6 +43,7 @@ typedef struct {
     const pm_options *options;
     pm_world world;
     pm_probes probes;
+    const pm_medium *medium; // that fluence is asked for in; NULL: irradiance is
     tally *tallies;
     pm_file dump;
 } pm_job;
@@ -58,6 +63,28 @@ static void add(tally *point, const pm_estimate *estimate)
     point->found += estimate->found;
 }
 
+/// Fluence is the density of the power that collides over the share of it that does, a metre.
+static pm_status estimate_fluence(const pm_photon_map *map,
+                                  const pm_estimate_settings *settings, pm_vec3 at,
+                                  const pm_medium *medium, pm_neighbour *scratch,
+                                  pm_estimate *estimate)
+{
+    pm_vec3 anywhere = {0.0, 0.0, 0.0};
+    PM_TRY(pm_estimate_volume(map, settings, at, NULL, anywhere, scratch, estimate));
+    estimate->value = pm_spectrum_scale(estimate->value, 1.0 / medium->sigma_t);
+    return PM_OK;
+}
+
+static pm_status estimate_at(const pm_job *job, const pm_photon_map *map, uint32_t i,
+                             pm_neighbour *scratch, pm_estimate *estimate)
+{
+    const pm_estimate_settings *settings = &job->options->estimate;
+    const pm_estimate_point *point = &job->probes.points[i];
+    return job->medium != NULL
+               ? estimate_fluence(map, settings, point->at, job->medium, scratch, estimate)
+               : pm_estimate_irradiance(map, settings, point, scratch, estimate);
+}
+
 /// Points are independent, so threads share them out; each has its own room to search in.
 static pm_status estimate_all(pm_job *job, const pm_photon_map *map)
 {
@@ -75,8 +102,7 @@ static pm_status estimate_all(pm_job *job, const pm_photon_map *map)
         for (int64_t i = 0; i < (int64_t)job->probes.count; i++) {
             pm_estimate estimate;
             if (status == PM_OK) {
-                status = pm_estimate_irradiance(map, settings, &job->probes.points[i], scratch,
-                                                &estimate);
+                status = estimate_at(job, map, (uint32_t)i, scratch, &estimate);
             }
             if (status == PM_OK) {
                 add(&job->tallies[i], &estimate);
@@ -96,10 +122,11 @@ static pm_status estimate_all(pm_job *job, const pm_photon_map *map)
 
 static pm_status estimate_runs(pm_job *job)
 {
+    pm_map_kind kind = job->medium != NULL ? PM_MAP_VOLUME : PM_MAP_GLOBAL;
     pm_progress progress = pm_progress_begin("radiance", job->options->runs);
     for (uint32_t run = 0; run < job->options->runs; run++) {
         pm_photon_map map;
-        PM_TRY(pm_map_make(job->options, &job->world.rays, PM_MAP_GLOBAL, run, &map));
+        PM_TRY(pm_map_make(job->options, &job->world.rays, kind, run, &map));
         pm_status status = estimate_all(job, &map);
         pm_photon_map_free(&map);
         PM_TRY(status);
@@ -130,8 +157,8 @@ static json_t *point_json(const pm_job *job, uint32_t i)
                           : json_pack("[n,n,n]"); // one run has no deviation
     json_t *found =
         runs > 1 ? json_real(point->found / runs) : json_integer((json_int_t)point->found);
-    json_t *object =
-        pm_report_add(json_object(), "irradiance", pm_report_spectrum(point->mean));
+    const char *key = job->medium != NULL ? "fluence" : "irradiance";
+    json_t *object = pm_report_add(json_object(), key, pm_report_spectrum(point->mean));
     object = pm_report_add(object, "sd", sd);
     object = pm_report_add(object, "radius", json_real(point->radius / runs));
     return pm_report_add(object, "found", found);
@@ -225,9 +252,34 @@ static pm_status report(const pm_job *job)
     json_t *object = job->probes.count == 1
                          ? point_json(job, 0)
                          : pm_report_add(json_object(), "points", points_json(job));
+    if (job->medium != NULL) {
+        object = pm_report_add(object, "medium", json_string(job->medium->id));
+    }
     object = pm_report_add(object, "runs", json_integer((json_int_t)job->options->runs));
     object = pm_report_add(object, "notes", pm_report_notes(&job->world.scene));
     return pm_report_end(job->options, object);
+}
+
+/// The medium that a point without a normal lies in.
+static pm_status find_medium(pm_job *job)
+{
+    const pm_scene *scene = &job->world.scene;
+    pm_vec3 at = job->options->at;
+    int index = pm_inside_medium(&job->world.rays, job->probes.points[0].at);
+    if (index == PM_NONE) {
+        return pm_status_fail(PM_EINPUT,
+                              "radiance: --at %g,%g,%g lies in no medium: on a surface it needs"
+                              " --normal X,Y,Z, the side looked at",
+                              at.x, at.y, at.z);
+    }
+    if (!(scene->media[index].sigma_t > 0.0)) {
+        return pm_status_fail(PM_EINPUT,
+                              "radiance: --at %g,%g,%g lies in %.60s, whose sigma_t is 0: no"
+                              " photon collides there, so none tells the fluence",
+                              at.x, at.y, at.z, scene->media[index].id);
+    }
+    job->medium = &scene->media[index];
+    return PM_OK;
 }
 
 static pm_status run(pm_job *job)
@@ -235,6 +287,9 @@ static pm_status run(pm_job *job)
     const pm_options *options = job->options;
     PM_TRY(pm_world_open(options, false, &job->world));
     PM_TRY(pm_probes_make(program.name, options, &job->world.scene, &job->probes));
+    if (job->probes.free) {
+        PM_TRY(find_medium(job));
+    }
     job->tallies = calloc(job->probes.count, sizeof *job->tallies);
     if (job->tallies == NULL) {
         return PM_FAIL(PM_ENOMEM, "no memory for %u points", job->probes.count);

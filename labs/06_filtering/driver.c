@@ -249,6 +249,11 @@ static pm_status run(pm_job *job)
     const pm_options *options = job->options;
     PM_TRY(pm_world_open(options, false, &job->world));
     PM_TRY(pm_probes_make(program.name, options, &job->world.scene, &job->probes));
+    if (job->probes.free) {
+        return pm_status_fail(PM_EINPUT,
+                              "filtering: --at needs --normal X,Y,Z: its kernels are "
+                              "those of surfaces, not of media");
+    }
     PM_TRY(make_room(job));
     PM_TRY(estimate_runs(job));
     return report(job);
