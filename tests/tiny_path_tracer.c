@@ -1,10 +1,12 @@
 // Invariant: a path goes on by one lobe with the lobe's mean albedo as its probability, and
-// what it has met is spelled in letters.
+// what it has met is spelled in letters. In a medium every stretch draws its own free way; an
+// exponential one forgets how far it has come.
 #include "tiny_path_tracer.h"
 
 #include "camera.h"
 #include "material.h"
 #include "test.h"
+#include "wavelength.h"
 
 #include <string.h>
 
@@ -13,7 +15,7 @@ enum { BLOCK = 1000, LETTERS = 256 };
 typedef struct {
     pm_ray ray;
     pm_spectrum weight;
-    char met[LETTERS]; // S and D, from the eye on
+    char met[LETTERS]; // S, D and V, from the eye on
     int events;
 } tiny_path;
 
@@ -25,10 +27,13 @@ static pm_layer sort_path(const char *met)
     if (met[0] == 'S') {
         return PM_LAYER_SPECULAR;
     }
+    if (met[0] == 'V') {
+        return PM_LAYER_VOLUME;
+    }
     if (met[1] == '\0') {
         return PM_LAYER_DIRECT;
     }
-    return strchr(met + 1, 'D') == NULL ? PM_LAYER_CAUSTIC : PM_LAYER_INDIRECT;
+    return strpbrk(met + 1, "DV") == NULL ? PM_LAYER_CAUSTIC : PM_LAYER_INDIRECT;
 }
 
 static void see(pm_spectrum radiance, const tiny_path *path, pm_spectrum layer[PM_LAYER_COUNT])
@@ -80,12 +85,77 @@ static bool turn(const pm_hit *hit, const pm_lobes *lobes, pm_rng *rng, tiny_pat
         pm_spectrum factor = pm_spectrum_mul(lobes->lobe[i].albedo, scatter.weight);
         factor = pm_spectrum_scale(factor, scatter.radiance / p);
         path->weight = pm_spectrum_mul(path->weight, factor);
-        path->met[path->events++] = letter_of(lobes, i);
-        path->ray = pm_hit_ray(hit, scatter.wo, 0.0, scatter.medium);
+        char letter = letter_of(lobes, i);
+        double wavelength = letter == 'S' ? path->ray.wavelength : 0.0;
+        path->met[path->events++] = letter;
+        path->ray = pm_hit_ray(hit, scatter.wo, wavelength, scatter.medium);
         CHECK(path->events < LETTERS);
         return !pm_spectrum_is_black(path->weight);
     }
     return false;
+}
+
+/// Henyey and Greenstein's function by refusal: `peak` is its highest value.
+static pm_vec3 drawn_way(pm_vec3 before, double g, pm_rng *rng)
+{
+    double peak = pow(1.0 + fabs(g), 2.0) / pow(1.0 - fabs(g), 2.0) / (1.0 + fabs(g));
+    for (;;) {
+        double z = 2.0 * pm_rng_draw(rng) - 1.0;
+        double turn = 2.0 * PM_PI * pm_rng_draw(rng);
+        double height = pm_rng_draw(rng);
+        double sine = sqrt(1.0 - z * z);
+        pm_vec3 way = pm_vec(sine * cos(turn), sine * sin(turn), z);
+        double cosine = pm_vec_dot(before, way);
+        double value = (1.0 - g * g) / pow(1.0 + g * g - 2.0 * g * cosine, 1.5);
+        if (height * peak < value) {
+            return way;
+        }
+    }
+}
+
+/// Whether the path collides before it has gone `length`, and where it goes on then, if at all.
+static bool collides(const pm_scene *scene, tiny_path *path, double length, pm_rng *rng,
+                     bool *goes_on)
+{
+    if (path->ray.medium == PM_NONE) {
+        return false;
+    }
+    const pm_medium *medium = &scene->media[path->ray.medium];
+    double way = -log(1.0 - pm_rng_draw(rng)) / medium->sigma_t;
+    if (way >= length) {
+        return false;
+    }
+    double p = pm_spectrum_mean(medium->albedo);
+    *goes_on = pm_rng_draw(rng) < p;
+    path->weight = pm_spectrum_mul(path->weight,
+                                   pm_spectrum_scale(medium->albedo, p > 0.0 ? 1.0 / p : 0.0));
+    path->met[path->events++] = 'V';
+    CHECK(path->events < LETTERS);
+    path->ray.origin = pm_vec_along(path->ray.origin, path->ray.direction, way);
+    path->ray.direction = drawn_way(path->ray.direction, medium->g, rng);
+    path->ray.wavelength = 0.0;
+    return true;
+}
+
+/// At the surface `hit`; false when the path ends there.
+static bool meet(const pm_scene *scene, const pm_hit *hit, pm_rng *rng, tiny_path *path,
+                 pm_spectrum layer[PM_LAYER_COUNT])
+{
+    pm_lobes lobes;
+    see_lamp(scene, hit, path, layer);
+    pm_material_lobes(scene, hit, &path->ray, &lobes);
+    if (lobes.passes) {
+        path->ray =
+            pm_hit_ray(hit, path->ray.direction, path->ray.wavelength, lobes.medium_beyond);
+        return true;
+    }
+    if (lobes.disperses) {
+        path->ray.wavelength = pm_wavelength_at(pm_rng_draw(rng));
+        path->weight =
+            pm_spectrum_mul(path->weight, pm_wavelength_weight(path->ray.wavelength));
+        pm_material_lobes(scene, hit, &path->ray, &lobes);
+    }
+    return turn(hit, &lobes, rng, path);
 }
 
 static void follow(const pm_intersector *world, tiny_path *path, pm_rng *rng,
@@ -93,15 +163,15 @@ static void follow(const pm_intersector *world, tiny_path *path, pm_rng *rng,
 {
     for (bool goes_on = true; goes_on;) {
         pm_hit hit;
-        if (!pm_closest(world, &path->ray, &hit)) {
+        bool met = pm_closest(world, &path->ray, &hit);
+        if (collides(world->scene, path, met ? hit.t : HUGE_VAL, rng, &goes_on)) {
+            continue;
+        }
+        if (!met) {
             see_sky(world->scene, path, layer);
             return;
         }
-        pm_lobes lobes;
-        pm_material_lobes(world->scene, &hit, &path->ray, &lobes);
-        CHECK(!lobes.passes);
-        see_lamp(world->scene, &hit, path, layer);
-        goes_on = turn(&hit, &lobes, rng, path);
+        goes_on = meet(world->scene, &hit, rng, path, layer);
     }
 }
 

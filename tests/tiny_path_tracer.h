@@ -1,5 +1,6 @@
 // An oracle for pictures: paths from the eye that find lamps by chance. No maps, no shadow
-// rays, no shared roulette; each path is spelled out and sorted into its layer by the rule.
+// rays, no shared roulette, no shared ways through media; each path is spelled out and sorted
+// into its layer by the rule.
 #ifndef PM_TINY_PATH_TRACER_H
 #define PM_TINY_PATH_TRACER_H
 
