@@ -10,7 +10,8 @@
 
 #include "progressive.h"
 
-/// Writes it.
+/// Writes it. Every machine writes the same bytes: least significant first.
+/// @param progressive  begun
 /// @return PM_EIO
 pm_status pm_checkpoint_write(const char *path, const pm_scene *scene,
                               const pm_render_settings *settings,
@@ -18,7 +19,8 @@ pm_status pm_checkpoint_write(const char *path, const pm_scene *scene,
 
 /// Reads it.
 /// @param progressive  [out] untouched unless PM_OK; free with pm_progressive_free()
-/// @return PM_EIO, PM_EINPUT, PM_ENOMEM
+/// @return PM_EIO; PM_EINPUT with a line for each setting that differs, or one that says what
+///         is wrong with the file; PM_ENOMEM
 pm_status pm_checkpoint_read(const char *path, const pm_scene *scene,
                              const pm_render_settings *settings, pm_progressive *progressive);
 
