@@ -1,7 +1,7 @@
 // Paths from the lights to the camera against paths from the eye, which share no estimator, and
 // against closed forms of what refraction and the pinhole do.
+#include "films.h"
 #include "light.h"
-#include "light_tracer.h"
 #include "references.h"
 #include "scenes.h"
 #include "shapes.h"
@@ -10,74 +10,6 @@
 #include <omp.h>
 #include <stdlib.h>
 #include <string.h>
-
-/// Films of two independent passes.
-typedef struct {
-    pm_spectrum *half[2];
-    int pixels;
-} film_pair;
-
-static pm_light_tracing tracing_of(const pm_scenes *s, uint64_t count, bool everything)
-{
-    return (pm_light_tracing){
-        .world = &s->world,
-        .source = {.seed = 1, .stream = PM_STREAM_LIGHT_PATHS},
-        .count = count,
-        .caps = pm_caps_of(&s->scene, 0),
-        .everything = everything,
-    };
-}
-
-/// Traces `count` paths in each pass.
-static film_pair films_of(const pm_scenes *s, uint64_t count, bool everything)
-{
-    omp_set_num_threads(1); // the runner keeps the other cores busy
-    film_pair made = {.pixels = s->scene.camera.width * s->scene.camera.height};
-    for (uint32_t half = 0; half < 2; half++) {
-        pm_light_tracing tracing = tracing_of(s, count, everything);
-        uint64_t cut = 0;
-        tracing.source.pass = half;
-        made.half[half] = calloc((size_t)made.pixels * PM_LAYER_COUNT, sizeof(pm_spectrum));
-        CHECK(made.half[half] != NULL);
-        CHECK_OK(pm_light_tracer_run(&tracing, made.half[half], &cut));
-        CHECK(cut == 0);
-    }
-    return made;
-}
-
-static void films_free(film_pair *films)
-{
-    free(films->half[0]);
-    free(films->half[1]);
-}
-
-/// Means over the pixels with marks[i] == mark (all where `marks` is NULL). The variance comes
-/// from the scatter of the halves over pixels, which light paths hit independently but for the
-/// few that hit several.
-static pm_pictures_means means_of(const film_pair *films, const int *marks, int mark)
-{
-    pm_pictures_means means = {0};
-    double count = 0.0;
-    for (int i = 0; i < films->pixels; i++) {
-        if (marks != NULL && marks[i] != mark) {
-            continue;
-        }
-        count++;
-        for (int l = 0; l < PM_LAYER_COUNT; l++) {
-            pm_spectrum one = films->half[0][i * PM_LAYER_COUNT + l];
-            pm_spectrum two = films->half[1][i * PM_LAYER_COUNT + l];
-            pm_spectrum half = pm_spectrum_scale(pm_spectrum_sub(one, two), 0.5);
-            means.mean[l] = pm_spectrum_add(means.mean[l],
-                                            pm_spectrum_scale(pm_spectrum_add(one, two), 0.5));
-            means.variance[l] = pm_spectrum_add(means.variance[l], pm_spectrum_mul(half, half));
-        }
-    }
-    for (int l = 0; l < PM_LAYER_COUNT; l++) {
-        means.mean[l] = pm_spectrum_scale(means.mean[l], 1.0 / count);
-        means.variance[l] = pm_spectrum_scale(means.variance[l], 1.0 / count / count);
-    }
-    return means;
-}
 
 /// A floor under each kind of light, seen from the side by a wide camera.
 static void floor_begin(pm_scenes *s, pm_light_type type)
@@ -107,12 +39,12 @@ static void direct_light_is_what_eyes_find(void)
     for (pm_light_type type = PM_LIGHT_POINT; type <= PM_LIGHT_CONSTANT; type++) {
         pm_scenes s;
         floor_begin(&s, type);
-        film_pair films = films_of(&s, 15000, true);
-        pm_pictures_means got = means_of(&films, NULL, 0);
+        pm_film_pair films = pm_films_of(&s, 15000, true);
+        pm_pictures_means got = pm_films_means(&films, NULL, 0);
         pm_pictures_means want = pm_references_trace(&s, 64);
         CHECK_THAT(want.mean[PM_LAYER_DIRECT].c[0] > 0.0, "%s", pm_light_name(type));
         pm_references_agree(PM_LAYER_DIRECT, &got, &want);
-        films_free(&films);
+        pm_films_free(&films);
         pm_scenes_free(&s);
     }
 }
@@ -128,7 +60,7 @@ static void every_part_of_the_film_is_weighed_right(void)
     pm_scenes_sun(&s, pm_vec(0.0, 1.0, -1.0), pm_gray(1.0));
     pm_scenes_ready(&s);
     pm_pictures_look(&s, pm_vec(0.0, 0.0, 1.0), pm_vec(0.0, 0.0, 0.0), 3.0, SIDE);
-    film_pair films = films_of(&s, 50000, true);
+    pm_film_pair films = pm_films_of(&s, 50000, true);
     int ring[SIDE * SIDE];
     for (int i = 0; i < SIDE * SIDE; i++) {
         double x = i % SIDE - 7.5;
@@ -137,12 +69,12 @@ static void every_part_of_the_film_is_weighed_right(void)
     }
     double want = 0.5 / PM_PI * sqrt(0.5);
     for (int r = 0; r < RINGS; r++) {
-        pm_pictures_means got = means_of(&films, ring, r);
+        pm_pictures_means got = pm_films_means(&films, ring, r);
         double variance = got.variance[PM_LAYER_DIRECT].c[0];
         CHECK_THAT(25.0 * variance < 0.01 * want * want, "ring %d is too noisy", r);
         CHECK_CLOSE("direct", got.mean[PM_LAYER_DIRECT].c[0], want, variance, 0.0);
     }
-    films_free(&films);
+    pm_films_free(&films);
     pm_scenes_free(&s);
 }
 
@@ -153,14 +85,14 @@ static void caustics_are_what_eyes_find(void)
     pm_references_room(&s, true);
     pm_scenes_ready(&s);
     pm_pictures_look(&s, pm_vec(0.0, -0.95, 0.1), pm_vec(0.0, 1.0, 0.0), 0.9, 16);
-    film_pair films = films_of(&s, 30000, true);
-    pm_pictures_means got = means_of(&films, NULL, 0);
+    pm_film_pair films = pm_films_of(&s, 30000, true);
+    pm_pictures_means got = pm_films_means(&films, NULL, 0);
     pm_pictures_means want = pm_references_trace(&s, 128);
     CHECK(got.mean[PM_LAYER_CAUSTIC].c[0] > 0.0);
     pm_references_agree(PM_LAYER_DIRECT, &got, &want);
     pm_references_agree(PM_LAYER_CAUSTIC, &got, &want);
     pm_references_agree(PM_LAYER_INDIRECT, &got, &want);
-    films_free(&films);
+    pm_films_free(&films);
     pm_scenes_free(&s);
 }
 
@@ -180,8 +112,8 @@ static void the_two_passes_share_the_light(void)
 {
     pm_scenes s;
     point_room_begin(&s);
-    film_pair films = films_of(&s, 30000, true);
-    pm_pictures_means want = means_of(&films, NULL, 0);
+    pm_film_pair films = pm_films_of(&s, 30000, true);
+    pm_pictures_means want = pm_films_means(&films, NULL, 0);
     pm_reference_settings settings = pm_references_settings(96);
     pm_reference_report report;
     pm_image image = pm_references_take(&s, &settings, &report);
@@ -199,7 +131,7 @@ static void the_two_passes_share_the_light(void)
     pm_references_agree(PM_LAYER_INDIRECT, &got, &want);
     CHECK(got.mean[PM_LAYER_DIRECT].c[0] == eye.mean[PM_LAYER_DIRECT].c[0]);
     pm_image_free(&image);
-    films_free(&films);
+    pm_films_free(&films);
     pm_scenes_free(&s);
 }
 
@@ -281,15 +213,15 @@ static void what_eyes_find_is_left_to_them(void)
     pm_scenes_wear(&s, pm_scenes_square(4.0, -1.0, false), mirror);
     pm_scenes_ready(&s);
     pm_pictures_look(&s, pm_vec(0.0, 1.0, 0.5), pm_vec(0.0, 1.5, 0.5), 1.0, 8);
-    film_pair all = films_of(&s, 2000, true);
-    CHECK(means_of(&all, NULL, 0).mean[PM_LAYER_CAUSTIC].c[0] > 0.0);
-    films_free(&all);
+    pm_film_pair all = pm_films_of(&s, 2000, true);
+    CHECK(pm_films_means(&all, NULL, 0).mean[PM_LAYER_CAUSTIC].c[0] > 0.0);
+    pm_films_free(&all);
 
-    film_pair left = films_of(&s, 2000, false);
+    pm_film_pair left = pm_films_of(&s, 2000, false);
     for (int i = 0; i < left.pixels * PM_LAYER_COUNT; i++) {
         CHECK(pm_spectrum_is_black(left.half[0][i]));
     }
-    films_free(&left);
+    pm_films_free(&left);
     pm_scenes_free(&s);
 }
 
@@ -298,7 +230,7 @@ static void threads_do_not_matter(void)
     const int threads[3] = {1, 2, 7};
     pm_scenes s;
     point_room_begin(&s);
-    pm_light_tracing tracing = tracing_of(&s, 5000, true);
+    pm_light_tracing tracing = pm_films_tracing(&s, 5000, true);
     size_t bytes = 16 * 16 * PM_LAYER_COUNT * sizeof(pm_spectrum);
     pm_spectrum *film[3];
     for (int i = 0; i < 3; i++) {
