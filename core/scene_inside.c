@@ -9,6 +9,8 @@
 #include <math.h>
 
 #define LINES 16
+#define LINES_THROUGH 64
+#define CROSSINGS_MOST 1000 // of one line, which then says nothing of its far end
 
 bool pm_scene_inside_begin(pm_scene_file *source, pm_scene_inside *inside)
 {
@@ -50,37 +52,104 @@ static pm_vec3 place_on(const pm_shape *shape, int number)
     return pm_vec_along(place, vertex[corner[2]], 0.7 - a);
 }
 
-/// The medium at `from` as one line tells it, and the shape that it meets; NULL when none.
-static const pm_shape *ask(const pm_scene_inside *inside, pm_vec3 from, int line, int *medium)
+static void tell(pm_scene_place *place, const pm_shape *by, int medium)
+{
+    if (place->by == NULL) {
+        place->by = by;
+        place->medium = medium;
+    } else if (place->against == NULL && medium != place->medium) {
+        place->against = by;
+        place->other = medium;
+    }
+}
+
+/// The next shape on `ray`, the medium before it and the one beyond; `ray` goes on from there.
+/// NULL when there is none.
+static const pm_shape *cross(const pm_scene_inside *inside, pm_ray *ray, int medium[2])
+{
+    pm_hit hit;
+    if (!pm_closest(&inside->world, ray, &hit)) {
+        return NULL;
+    }
+    const pm_shape *shape = &inside->bounds.shapes[hit.shape];
+    bool enters = pm_vec_dot(hit.normal, ray->direction) < 0.0;
+    medium[0] = enters ? shape->exterior : shape->interior;
+    medium[1] = enters ? shape->interior : shape->exterior;
+    *ray = pm_hit_ray(&hit, ray->direction, 0.0, PM_NONE);
+    return shape;
+}
+
+/// Line number `line` of `lines` from a point, to a place on one of the shapes.
+static pm_ray ray_from(const pm_scene_inside *inside, pm_vec3 from, int line, int lines)
 {
     const pm_scene *bounds = &inside->bounds;
     int count = bounds->shape_count;
-    int which = count <= LINES ? line % count : (int)((int64_t)line * count / LINES);
+    int which = count <= lines ? line % count : (int)((int64_t)line * count / lines);
     pm_vec3 way = pm_vec_sub(place_on(&bounds->shapes[which], line), from);
-    pm_ray ray = {from, pm_vec_normalize(way), HUGE_VAL, 0.0, PM_NONE};
-    pm_hit hit;
-    if (!(pm_vec_length(way) > 0.0) || !pm_closest(&inside->world, &ray, &hit)) {
-        return NULL;
-    }
-    const pm_shape *shape = &bounds->shapes[hit.shape];
-    bool before = pm_vec_dot(hit.normal, ray.direction) < 0.0;
-    *medium = before ? shape->exterior : shape->interior;
-    return shape;
+    return (pm_ray){from, pm_vec_normalize(way), HUGE_VAL, 0.0, PM_NONE};
 }
 
 pm_scene_place pm_scene_inside_at(const pm_scene_inside *inside, pm_vec3 from)
 {
     pm_scene_place place = {.medium = PM_NONE, .other = PM_NONE};
-    for (int i = 0; i < LINES && place.against == NULL; i++) {
-        int medium;
-        const pm_shape *shape = ask(inside, from, i, &medium);
-        if (shape != NULL && place.by == NULL) {
-            place.medium = medium;
-            place.by = shape;
-        } else if (shape != NULL && medium != place.medium) {
-            place.other = medium;
-            place.against = shape;
+    for (int i = 0; i < LINES; i++) {
+        pm_ray ray = ray_from(inside, from, i, LINES);
+        int medium[2];
+        const pm_shape *shape = cross(inside, &ray, medium);
+        if (shape != NULL) {
+            tell(&place, shape, medium[0]);
         }
     }
     return place;
+}
+
+/// One line from outside the scene to outside it. Two shapes that contradict each other between
+/// their crossings; otherwise `around`, which learns of both ends.
+static pm_scene_place cross_all(const pm_scene_inside *inside, pm_ray ray,
+                                pm_scene_place *around)
+{
+    int medium[2];
+    const pm_shape *last = cross(inside, &ray, medium);
+    if (last == NULL) {
+        return *around;
+    }
+    tell(around, last, medium[0]);
+    for (int i = 0; i < CROSSINGS_MOST; i++) {
+        pm_scene_place between = {medium[1], last, PM_NONE, NULL};
+        const pm_shape *next = cross(inside, &ray, medium);
+        if (next == NULL) {
+            tell(around, last, between.medium);
+            return *around;
+        }
+        tell(&between, next, medium[0]);
+        if (between.against != NULL) {
+            return between;
+        }
+        last = next;
+    }
+    return *around;
+}
+
+/// Somewhere outside, another place for each number: even over height and azimuth.
+static pm_vec3 place_outside(const pm_scene *scene, int number)
+{
+    double z = 2.0 * fraction(0.5 + 0.8191725133961645 * number) - 1.0;
+    double azimuth = 2.0 * PM_PI * fraction(0.6710436067037893 * number);
+    double across = sqrt(1.0 - z * z);
+    return pm_vec_scale(pm_vec(across * cos(azimuth), across * sin(azimuth), z),
+                        2.0 * scene->radius);
+}
+
+pm_scene_place pm_scene_inside_around(const pm_scene_inside *inside)
+{
+    pm_scene_place around = {.medium = PM_NONE, .other = PM_NONE};
+    for (int i = 0; i < LINES_THROUGH; i++) {
+        pm_vec3 from = place_outside(&inside->bounds, i);
+        pm_scene_place found =
+            cross_all(inside, ray_from(inside, from, i, LINES_THROUGH), &around);
+        if (found.against != NULL) {
+            return found;
+        }
+    }
+    return around;
 }

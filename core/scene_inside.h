@@ -10,12 +10,12 @@ typedef struct {
     pm_intersector world; // of bounds
 } pm_scene_inside;
 
-/// What was found at a point.
+/// What the shapes tell of one place.
 typedef struct {
     int medium;              // or PM_NONE
-    const pm_shape *by;      // a shape that tells of it; NULL when none was met
-    int other;               // another medium that another shape tells of
-    const pm_shape *against; // that shape; NULL when they all agree
+    const pm_shape *by;      // that tells of it; NULL when none was met
+    int other;               // another medium
+    const pm_shape *against; // that tells of that one; NULL when they all agree
 } pm_scene_place;
 
 /// Makes ready for questions, which share the memory of `source`. Release with
@@ -24,5 +24,10 @@ bool pm_scene_inside_begin(pm_scene_file *source, pm_scene_inside *inside);
 
 /// Along 16 lines from `from` to points on the shapes, always the same ones.
 pm_scene_place pm_scene_inside_at(const pm_scene_inside *inside, pm_vec3 from);
+
+/// Around the whole scene, along 64 lines right through it. Where two shapes that follow each
+/// other on a line contradict each other, these are told instead: they do not close, cut or
+/// touch each other.
+pm_scene_place pm_scene_inside_around(const pm_scene_inside *inside);
 
 #endif

@@ -13,7 +13,7 @@ typedef struct {
     pm_scene_file *source;
     const pm_xml *object; // sensor or emitter
     pm_scene_inside inside;
-    int everywhere; // medium, where no shape parts media
+    int around; // medium around the whole scene
 } finder;
 
 /// For messages.
@@ -31,6 +31,18 @@ static called call(const finder *f, int medium)
     return name;
 }
 
+static void report(const finder *f, const pm_xml *at, const pm_scene_place *place)
+{
+    PM_FAULT(
+        f->source, at, "%s: of one place \"%.60s\" tells %s and \"%.60s\" %s",
+        at == f->object
+            ? "this light or sensor stands on a shape that parts media, or they do not close"
+            : "the shapes that part media do not close, or cut or touch each "
+              "other",
+        place->by->id, call(f, place->medium).text, place->against->id,
+        call(f, place->other).text);
+}
+
 /// PM_NONE after a fault.
 static int find_at(const finder *f, pm_vec3 from)
 {
@@ -38,11 +50,7 @@ static int find_at(const finder *f, pm_vec3 from)
     if (place.against == NULL) {
         return place.medium;
     }
-    PM_FAULT(f->source, f->object,
-             "the shapes that part media do not close, or this %s stands on one of them: "
-             "around it \"%.60s\" tells of %s, \"%.60s\" of %s",
-             f->object->tag, place.by->id, call(f, place.medium).text, place.against->id,
-             call(f, place.other).text);
+    report(f, f->object, &place);
     return PM_NONE;
 }
 
@@ -84,22 +92,10 @@ static bool is_outside(const pm_light *light)
     return light->type == PM_LIGHT_DIRECTIONAL || light->type == PM_LIGHT_CONSTANT;
 }
 
-/// Around the scene, where light from outside comes from.
-static int find_around(const finder *f, const pm_light *light)
-{
-    double far = 2.0 * f->source->scene.radius;
-    if (light->type == PM_LIGHT_DIRECTIONAL) {
-        return find_at(f, pm_vec_scale(light->direction, -far));
-    }
-    const pm_vec3 points[6] = {{far, 0.0, 0.0},  {-far, 0.0, 0.0}, {0.0, far, 0.0},
-                               {0.0, -far, 0.0}, {0.0, 0.0, far},  {0.0, 0.0, -far}};
-    return find_at_all(f, points, 6);
-}
-
 static int find_light(const finder *f, const pm_light *light)
 {
     if (is_outside(light)) {
-        return find_around(f, light);
+        return f->around;
     }
     if (light->type == PM_LIGHT_AREA) {
         return find_off(f, &f->source->scene.shapes[light->shape]);
@@ -139,7 +135,7 @@ static void stand_light(const finder *f, pm_light *light)
 {
     int before = f->source->faults.count;
     int named = light->medium;
-    light->medium = f->inside.bounds.shape_count == 0 ? f->everywhere : find_light(f, light);
+    light->medium = f->inside.bounds.shape_count == 0 ? f->around : find_light(f, light);
     if (f->source->faults.count == before) {
         check_named(f, named, light->medium);
     }
@@ -153,7 +149,7 @@ static void stand_camera(const finder *f, pm_camera *camera)
     int before = f->source->faults.count;
     int named = camera->medium;
     camera->medium =
-        f->inside.bounds.shape_count == 0 ? f->everywhere : find_at(f, camera->position);
+        f->inside.bounds.shape_count == 0 ? f->around : find_at(f, camera->position);
     if (f->source->faults.count > before) {
         return;
     }
@@ -167,7 +163,8 @@ static void stand_camera(const finder *f, pm_camera *camera)
     }
 }
 
-/// What the sensor names, or else the first emitter that names one.
+/// Without shapes that part media: what the sensor names, or else the first emitter that names
+/// one.
 static int find_everywhere(const pm_scene *scene)
 {
     int medium = scene->has_camera ? scene->camera.medium : PM_NONE;
@@ -177,11 +174,34 @@ static int find_everywhere(const pm_scene *scene)
     return medium;
 }
 
+/// The element that `shape` was made from.
+static const pm_xml *element_of(const pm_scene_file *source, const pm_shape *shape)
+{
+    for (pm_xml *e = source->root; e != NULL; e = pm_xml_following(source->root, e)) {
+        if (strcmp(e->tag, "shape") == 0 && source->scene.shapes[e->index].id == shape->id) {
+            return e;
+        }
+    }
+    return source->root;
+}
+
+static void find_around(finder *f)
+{
+    if (f->inside.bounds.shape_count == 0) {
+        f->around = find_everywhere(&f->source->scene);
+        return;
+    }
+    pm_scene_place place = pm_scene_inside_around(&f->inside);
+    f->around = place.medium;
+    if (place.against != NULL) {
+        report(f, element_of(f->source, place.against), &place);
+    }
+}
+
 static void stand_all(finder *f)
 {
     pm_xml *root = f->source->root;
     pm_scene *scene = &f->source->scene;
-    f->everywhere = find_everywhere(scene);
     for (pm_xml *e = root; e != NULL; e = pm_xml_following(root, e)) {
         f->object = e;
         if (strcmp(e->tag, "sensor") == 0) {
@@ -202,7 +222,10 @@ void pm_scene_stand(pm_scene_file *source)
         pm_faults_fail(&source->faults, PM_ENOMEM);
         return;
     }
-    stand_all(&f);
+    find_around(&f);
+    if (pm_faults_none(&source->faults)) {
+        stand_all(&f);
+    }
     pm_intersector_free(&f.inside.world);
     if (pm_faults_none(&source->faults)) {
         pm_scene_drop_media(source);
