@@ -16,17 +16,44 @@
 
 #include "estimate.h"
 
-/// A volume map made ready for rays: boxes around the photons' balls, nested as the map's tree.
+enum {
+    PM_BEAMS_LEAF = 8, // balls in a leaf
+    PM_BEAMS_WIDE = 4, // boxes side by side in a node
+    PM_BEAMS_LEVELS = 16,
+};
+
+/// How far off, in the beams' unit, a query in floats may see a ball.
+#define PM_BEAMS_SLACK 0x1p-18f
+
+/// Balls, in the beams' unit of length; radius 0: none.
+typedef struct {
+    float at[3][PM_BEAMS_LEAF];
+    float radius[PM_BEAMS_LEAF];
+} pm_beam_leaf;
+
+/// Boxes around what is in the node's children: x y z of their low and high corners, in the
+/// beams' unit. A child that is not there has an empty box.
+typedef struct {
+    float low[3][PM_BEAMS_WIDE];
+    float high[3][PM_BEAMS_WIDE];
+} pm_beam_node;
+
+/// The photons of a volume map made ready for rays. Level 0 of the nodes holds leaves 4j .. 4j
+/// + 3 in node j, level n the nodes 4j .. 4j + 3 of level n - 1; the last has one node.
 /// Zero-initialised: none.
 typedef struct {
-    pm_photon_map map; // balanced, scaled; its photons are borrowed and must outlive the beams
-    float (*ball)[4];  // x y z [m] and radius of each photon; 0: it does not count
-    float (*box)[6];   // low x y z, high x y z [m] of each node that has children: around
-                       // its ball and all below
-    uint32_t counted;  // photons that count
+    double unit;  // [m] a power of two, so that nothing is rounded; all balls lie in [-1, 1]^3
+    double scale; // power of a photon = scale times that in `light`
+    uint32_t count; // photons that count
+    int levels;
+    uint32_t first[PM_BEAMS_LEVELS + 1]; // where each level's nodes begin; then their number
+    pm_beam_node *node;
+    pm_beam_leaf *leaf;
+    pm_photon_exact *light; // photon 8j + i of leaf j: unscaled power, direction
 } pm_beams;
 
-/// Gives each photon of `map` a radius and builds the boxes; radii on all threads.
+/// Makes beams of the photons of `map`, which may be freed then. Radii are found on all
+/// threads.
 ///
 /// @param radius  [m] > 0 of every photon; INFINITY: each its own, the distance of its
 ///                round(sqrt(k))-th neighbour. Fewer than k + 1 photons count as if k were all
@@ -48,7 +75,8 @@ typedef struct {
 } pm_beam;
 
 /// Radiance that photons in `medium` send back along `along`, between its start and its t_max
-/// (INFINITY: no end), attenuated on the way. Direction unit. The same for any thread.
+/// (INFINITY: no end), attenuated on the way. Its direction unit. Any number of threads may ask
+/// at once.
 pm_beam pm_beams_query(const pm_beams *beams, const pm_medium *medium, const pm_ray *along);
 
 #endif

@@ -68,7 +68,7 @@ static void worker_set_up(const pm_eye_pass *pass, pm_eye_worker *worker)
     worker->gather.settings = settings->light;
     worker->gather.irradiance = maps->irradiance.count > 0 ? &maps->irradiance : NULL;
     worker->gather.shadows = maps->shadows.light_count > 0 ? &maps->shadows : NULL;
-    worker->gather.beams = maps->beams.ball != NULL ? &maps->beams : NULL;
+    worker->gather.beams = maps->beams.levels > 0 ? &maps->beams : NULL;
     for (int kind = 0; kind < PM_MAP_COUNT; kind++) {
         worker->gather.map[kind] = maps->has[kind] ? &maps->map[kind] : NULL;
         worker->gather.reach[kind] = settings->reach[kind];
