@@ -38,20 +38,22 @@ static json_t *caps_object(const pm_scene *scene, uint32_t asked)
 static json_t *chosen_words(const pm_render_settings *settings)
 {
     bool all = settings->only == PM_NONE;
-    return json_pack("{s:s,s:s,s:s,s:s,s:s,s:s,s:s,s:b}", "only",
+    return json_pack("{s:s,s:s,s:s,s:s,s:s,s:s,s:s,s:s,s:b}", "only",
                      all ? "all" : pm_layer_name((pm_layer)settings->only), "view",
                      settings->view_photons ? "photons" : "full", "direct",
                      settings->direct_photons ? "photons" : "rays", "caustics",
-                     settings->light.caustics_global ? "global" : "map", "precompute",
+                     settings->light.caustics_global ? "global" : "map", "media",
+                     settings->light.media == PM_MEDIA_MARCH ? "march" : "beams", "precompute",
                      settings->precompute ? "on" : "off", "projection",
                      settings->everywhere ? "off" : "on", "roulette",
                      settings->roulette == PM_ROULETTE_MAX ? "max" : "average", "packing",
                      !settings->unpacked);
 }
 
-static json_t *settings_object(const pm_scene *scene, const pm_render_settings *settings,
-                               const pm_render_maps *maps)
+static json_t *settings_object(const pm_render_done *done)
 {
+    const pm_scene *scene = done->scene;
+    const pm_render_settings *settings = done->settings;
     json_t *object =
         json_pack("{s:I,s:i,s:i,s:I,s:I,s:I,s:I,s:I,s:I}", "seed", (json_int_t)settings->seed,
                   "width", scene->camera.width, "height", scene->camera.height, "spp",
@@ -66,13 +68,36 @@ static json_t *settings_object(const pm_scene *scene, const pm_render_settings *
     }
     json_decref(words);
     object = pm_report_add(object, "caps", caps_object(scene, settings->max_bounces));
-    object = pm_report_add(object, "photons", pm_report_photons(maps->photons));
+    if (done->progressive != NULL) {
+        object = pm_report_add(object, "passes", json_integer((json_int_t)done->passes));
+    }
+    object = pm_report_add(object, "march_step", json_real(settings->light.step));
+    object = pm_report_add(object, "photons", pm_report_photons(done->maps->photons));
     return pm_report_add(object, "estimate", estimate_settings(&settings->light.estimate));
 }
 
-static json_t *map_object(const pm_render_maps *maps, pm_map_kind kind)
+pm_map_sum pm_render_sum(const pm_render_done *done, pm_map_kind kind)
 {
-    json_t *object = pm_report_map(&maps->map[kind]);
+    if (done->progressive == NULL) {
+        return pm_map_sum_of(&done->maps->map[kind]);
+    }
+    pm_map_sum sum = done->progressive->map[kind].sum;
+    sum.power = pm_spectrum_scale(sum.power, 1.0 / done->progressive->passes);
+    return sum;
+}
+
+void pm_render_radii(const pm_render_done *done, pm_map_kind kind, double radius[2])
+{
+    int dimensions = pm_progressive_dimensions(done->settings, kind);
+    radius[0] = done->progressive->map[kind].first;
+    radius[1] = radius[0] * pm_progressive_radius(done->progressive->passes, dimensions);
+}
+
+static json_t *map_object(const pm_render_done *done, pm_map_kind kind)
+{
+    const pm_render_maps *maps = done->maps;
+    pm_map_sum sum = pm_render_sum(done, kind);
+    json_t *object = pm_report_map_sum(&sum);
     if (maps->pass[kind].emitted > 0) {
         json_t *aim = pm_report_projection(&maps->aim[kind], maps->pass[kind].emitted);
         object = pm_report_add(object, "projection", aim);
@@ -80,15 +105,31 @@ static json_t *map_object(const pm_render_maps *maps, pm_map_kind kind)
     return object;
 }
 
-static json_t *maps_object(const pm_render_maps *maps)
+static json_t *maps_object(const pm_render_done *done)
 {
     json_t *object = json_object();
     for (pm_map_kind kind = 0; kind < PM_MAP_COUNT; kind++) {
-        if (maps->has[kind]) {
-            object = pm_report_add(object, pm_map_name(kind), map_object(maps, kind));
+        if (done->maps->has[kind]) {
+            object = pm_report_add(object, pm_map_name(kind), map_object(done, kind));
         }
     }
     return object;
+}
+
+static json_t *progressive_object(const pm_render_done *done)
+{
+    json_t *object = json_pack("{s:I,s:f}", "passes", (json_int_t)done->progressive->passes,
+                               "alpha", PM_PROGRESSIVE_ALPHA);
+    json_t *radii = json_object();
+    for (pm_map_kind kind = 0; kind < PM_MAP_COUNT; kind++) {
+        double radius[2];
+        pm_render_radii(done, kind, radius);
+        if (done->maps->has[kind]) {
+            json_t *pair = json_pack("[f,f]", radius[0], radius[1]);
+            radii = pm_report_add(radii, pm_map_name(kind), pair);
+        }
+    }
+    return pm_report_add(object, "radius", radii);
 }
 
 static json_t *flux_object(const pm_render_maps *maps)
@@ -111,23 +152,28 @@ static json_t *seconds_object(const pm_render_maps *maps, const pm_eye_report *e
         trace += maps->pass[kind].seconds;
         balance += maps->balance_seconds[kind];
     }
-    double made = trace + balance + maps->shadow_seconds + maps->irradiance_seconds;
-    return json_pack("{s:f,s:f,s:f,s:f,s:f,s:f}", "photons", trace, "balance", balance,
+    double made =
+        trace + balance + maps->shadow_seconds + maps->irradiance_seconds + maps->beams_seconds;
+    return json_pack("{s:f,s:f,s:f,s:f,s:f,s:f,s:f}", "photons", trace, "balance", balance,
                      "shadows", maps->shadow_seconds, "irradiance", maps->irradiance_seconds,
-                     "picture", eye->seconds, "total", made + eye->seconds);
+                     "beams", maps->beams_seconds, "picture", eye->seconds, "total",
+                     made + eye->seconds);
 }
 
 /// What the eye pass asked: shadow rays, the global map, places of known irradiance.
-static json_t *asked_objects(json_t *object, const pm_render_maps *maps,
-                             const pm_eye_report *eye)
+static json_t *asked_objects(json_t *object, const pm_render_done *done)
 {
+    const pm_render_maps *maps = done->maps;
+    const pm_eye_report *eye = done->eye;
+    uint64_t count =
+        done->progressive != NULL ? done->progressive->places : maps->irradiance.count;
     json_t *direct = json_pack("{s:I,s:I,s:I}", "rays", (json_int_t)eye->shadow_rays, "spared",
                                (json_int_t)eye->shadow_spared, "shadow_photons",
                                (json_int_t)maps->shadow_photons);
     json_t *gather = json_pack("{s:I,s:I}", "lookups", (json_int_t)eye->lookups, "near",
                                (json_int_t)eye->near);
-    json_t *places = json_pack("{s:I,s:f}", "places", (json_int_t)maps->irradiance.count,
-                               "seconds", maps->irradiance_seconds);
+    json_t *places = json_pack("{s:I,s:f}", "places", (json_int_t)count, "seconds",
+                               maps->irradiance_seconds);
     object = pm_report_add(object, "direct", direct);
     object = pm_report_add(object, "gather", gather);
     return pm_report_add(object, "precompute", places);
@@ -140,21 +186,25 @@ static json_int_t peak_bytes(void)
     return (json_int_t)usage.ru_maxrss * 1024;
 }
 
-json_t *pm_render_json(const pm_scene *scene, const pm_render_settings *settings,
-                       const pm_render_maps *maps, const pm_eye_report *eye)
+json_t *pm_render_json(const pm_render_done *done)
 {
-    json_t *object = json_pack("{s:s}", "scene", scene->path);
+    const pm_render_maps *maps = done->maps;
+    const pm_eye_report *eye = done->eye;
+    json_t *object = json_pack("{s:s}", "scene", done->scene->path);
     object = pm_report_add(object, "plan", pm_report_plan(&maps->plan));
-    object = pm_report_add(object, "settings", settings_object(scene, settings, maps));
-    object = pm_report_add(object, "maps", maps_object(maps));
+    object = pm_report_add(object, "settings", settings_object(done));
+    if (done->progressive != NULL) {
+        object = pm_report_add(object, "progressive", progressive_object(done));
+    }
+    object = pm_report_add(object, "maps", maps_object(done));
     object = pm_report_add(object, "flux", flux_object(maps));
-    object = asked_objects(object, maps, eye);
-    object = pm_report_add(object, "choices", pm_explain_choices(settings, maps));
+    object = asked_objects(object, done);
+    object = pm_report_add(object, "choices", pm_explain_choices(done->settings, maps));
     object = pm_report_add(object, "eye_paths_cut", json_integer((json_int_t)eye->cut));
     object =
         pm_report_add(object, "pixels_too_bright", json_integer((json_int_t)eye->too_bright));
     object = pm_report_add(object, "black", json_boolean(eye->black));
-    object = pm_report_add(object, "notes", pm_report_notes(scene));
+    object = pm_report_add(object, "notes", pm_report_notes(done->scene));
     object = pm_report_add(object, "seconds", seconds_object(maps, eye));
     return pm_report_add(object, "peak_bytes", json_integer(peak_bytes()));
 }

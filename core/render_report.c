@@ -4,9 +4,6 @@
 #include "choice.h"
 #include "explain.h"
 #include "map_make.h"
-#include "map_power.h"
-#include "photon_map.h"
-#include "render_json.h"
 #include "report.h"
 
 #include <stdio.h>
@@ -19,11 +16,12 @@ static void row(const char *stage, const char *map, double cpu, uint64_t photons
            pm_spectrum_mean(power_out));
 }
 
-static void print_map(const pm_scene *scene, const pm_render_maps *maps, pm_map_kind kind)
+static void print_map(const pm_render_done *done, pm_map_kind kind)
 {
+    const pm_scene *scene = done->scene;
+    const pm_render_maps *maps = done->maps;
     const pm_pass_report *pass = &maps->pass[kind];
-    const pm_photon_map *map = &maps->map[kind];
-    pm_spectrum power = pm_map_power(map);
+    pm_map_sum map = pm_render_sum(done, kind);
     if (pass->emitted > 0) {
         pm_spectrum flux = pm_gray(0.0);
         for (int i = 0; i < scene->light_count; i++) {
@@ -35,31 +33,49 @@ static void print_map(const pm_scene *scene, const pm_render_maps *maps, pm_map_
         row("emission", pm_map_name(kind), pass->emit_cpu, pass->emitted, flux, audit->emitted);
         row("tracing", pm_map_name(kind), pass->trace_cpu, pass->emitted, audit->emitted,
             ended);
-        row("storage", pm_map_name(kind), pass->store_cpu, map->count, pass->deposited, power);
+        row("storage", pm_map_name(kind), pass->store_cpu, map.stored, pass->deposited,
+            map.power);
     }
-    row("balancing", pm_map_name(kind), maps->balance_seconds[kind], map->count, power, power);
+    row("balancing", pm_map_name(kind), maps->balance_seconds[kind], map.stored, map.power,
+        map.power);
 }
 
-static void remark_on_map(const pm_render_settings *settings, const pm_render_maps *maps,
-                          pm_map_kind kind)
+/// A map with too few photons for its radius.
+static void remark_on_count(const pm_render_done *done, pm_map_kind kind, uint64_t stored)
 {
-    const pm_photon_map *map = &maps->map[kind];
-    uint32_t k = settings->light.estimate.k;
-    if (maps->has[kind] && map->count < k) {
-        printf(
-            "%s map: %u photons, fewer than k = %u: each estimate takes them all, however far "
-            "away; emit more\n",
-            pm_map_name(kind), map->count, k);
+    uint32_t k = done->settings->light.estimate.k;
+    double radius[2] = {1.0, 1.0};
+    if (done->progressive != NULL) {
+        pm_render_radii(done, kind, radius);
+    } else if (stored < k) {
+        printf("%s map: %llu photons, fewer than k = %u: each estimate takes them all, however "
+               "far away; emit more\n",
+               pm_map_name(kind), (unsigned long long)stored, k);
     }
+    if (radius[0] == 0.0 && stored > 0) {
+        printf("%s map: in no pass did two photons lie apart that count, so it has no radius; "
+               "emit more, or give -r\n",
+               pm_map_name(kind));
+    }
+}
+
+static void remark_on_map(const pm_render_done *done, pm_map_kind kind)
+{
+    const pm_render_maps *maps = done->maps;
+    if (!maps->has[kind]) {
+        return;
+    }
+    pm_map_sum map = pm_render_sum(done, kind);
+    remark_on_count(done, kind, map.stored);
     double lost = pm_spectrum_mean(maps->pass[kind].audit.lost);
-    if (map->refused > 0) {
+    if (map.refused > 0) {
         printf("%s map: %llu photons without a finite value were refused\n", pm_map_name(kind),
-               (unsigned long long)map->refused);
+               (unsigned long long)map.refused);
     }
-    if (map->clamped > 0 || map->vanished > 0) {
+    if (map.clamped > 0 || map.vanished > 0) {
         printf("%s map: %llu photons are above and %llu below the powers that can be stored\n",
-               pm_map_name(kind), (unsigned long long)map->clamped,
-               (unsigned long long)map->vanished);
+               pm_map_name(kind), (unsigned long long)map.clamped,
+               (unsigned long long)map.vanished);
     }
     if (lost > 0.0) {
         printf("%s map: %g W were lost with photons cut after too many events\n",
@@ -80,13 +96,13 @@ static void remark_on_choices(const pm_render_settings *settings, const pm_rende
 }
 
 /// What a picture does not show, or shows wrongly: nothing of that passes in silence.
-static void print_remarks(const pm_render_settings *settings, const pm_render_maps *maps,
-                          const pm_eye_report *eye)
+static void print_remarks(const pm_render_done *done)
 {
+    const pm_eye_report *eye = done->eye;
     for (pm_map_kind kind = 0; kind < PM_MAP_COUNT; kind++) {
-        remark_on_map(settings, maps, kind);
+        remark_on_map(done, kind);
     }
-    remark_on_choices(settings, maps);
+    remark_on_choices(done->settings, done->maps);
     if (eye->cut > 0) {
         printf("%llu eye paths and gather rays were cut after too many mirrors or glasses\n",
                (unsigned long long)eye->cut);
@@ -111,11 +127,15 @@ static void print_projection(const pm_render_maps *maps, pm_map_kind kind)
     }
 }
 
-static void print_eye(const pm_render_maps *maps, const pm_eye_report *eye)
+static void print_eye(const pm_render_done *done)
 {
-    if (maps->irradiance.count > 0) {
-        printf("%-10s %-8s %8.2f %12u places of known irradiance (seconds on the wall)\n",
-               "precompute", "", maps->irradiance_seconds, maps->irradiance.count);
+    const pm_render_maps *maps = done->maps;
+    const pm_eye_report *eye = done->eye;
+    uint64_t places =
+        done->progressive != NULL ? done->progressive->places : maps->irradiance.count;
+    if (places > 0) {
+        printf("%-10s %-8s %8.2f %12llu places of known irradiance (seconds on the wall)\n",
+               "precompute", "", maps->irradiance_seconds, (unsigned long long)places);
     }
     printf("%-10s %-8s %8.2f %12llu estimates in the global map\n", "picture", "", eye->cpu,
            (unsigned long long)eye->lookups);
@@ -129,35 +149,47 @@ static void print_eye(const pm_render_maps *maps, const pm_eye_report *eye)
     }
 }
 
-static void print_table(const pm_scene *scene, const pm_render_maps *maps,
-                        const pm_eye_report *eye)
+static void print_radii(const pm_render_done *done, pm_map_kind kind)
 {
+    if (done->progressive != NULL) {
+        double radius[2];
+        pm_render_radii(done, kind, radius);
+        printf("%-10s %-8s radius %g m in the first pass, %g m in the last\n", "passes",
+               pm_map_name(kind), radius[0], radius[1]);
+    }
+}
+
+static void print_table(const pm_render_done *done)
+{
+    if (done->progressive != NULL) {
+        printf("%u of %u passes, all of them together; power is their mean:\n",
+               done->progressive->passes, done->passes);
+    }
     printf("%-10s %-8s %8s %12s %14s %14s\n", "stage", "map", "CPU s", "photons", "power in W",
            "power out W");
     for (pm_map_kind kind = 0; kind < PM_MAP_COUNT; kind++) {
-        if (maps->has[kind]) {
-            print_map(scene, maps, kind);
-            print_projection(maps, kind);
+        if (done->maps->has[kind]) {
+            print_map(done, kind);
+            print_projection(done->maps, kind);
+            print_radii(done, kind);
         }
     }
-    print_eye(maps, eye);
+    print_eye(done);
     puts("Tracing's power out is what was absorbed, escaped or was cut; storage's is every "
          "deposit,");
     puts("so light that bounces counts at each meeting. Power is the mean of three channels.");
 }
 
-pm_status pm_render_report(const pm_options *options, const pm_scene *scene,
-                           const pm_render_settings *settings, const pm_render_maps *maps,
-                           const pm_eye_report *eye)
+pm_status pm_render_report(const pm_options *options, const pm_render_done *done)
 {
     if (!options->json) {
-        print_table(scene, maps, eye);
-        print_remarks(settings, maps, eye);
+        print_table(done);
+        print_remarks(done);
     }
-    PM_TRY(pm_report_end(options, pm_render_json(scene, settings, maps, eye)));
+    PM_TRY(pm_report_end(options, pm_render_json(done)));
     for (pm_map_kind kind = 0; kind < PM_MAP_COUNT; kind++) {
-        if (maps->pass[kind].emitted > 0) {
-            PM_TRY(pm_audit_check(&maps->pass[kind].audit));
+        if (done->maps->pass[kind].emitted > 0) {
+            PM_TRY(pm_audit_check(&done->maps->pass[kind].audit));
         }
     }
     return PM_OK;

@@ -4,8 +4,6 @@
 #include "file.h"
 #include "light.h"
 #include "map_make.h"
-#include "map_power.h"
-#include "photon_map.h"
 
 json_t *pm_report_add(json_t *object, const char *key, json_t *value)
 {
@@ -139,15 +137,21 @@ json_t *pm_report_by_medium(const pm_scene *scene, const pm_audit *audit)
     return object;
 }
 
+json_t *pm_report_map_sum(const pm_map_sum *sum)
+{
+    json_t *object = json_pack("{s:I,s:I}", "emitted", (json_int_t)sum->emitted, "stored",
+                               (json_int_t)sum->stored);
+    object = pm_report_add(object, "power", pm_report_spectrum(sum->power));
+    object = pm_report_add(object, "refused", json_integer((json_int_t)sum->refused));
+    object = pm_report_add(object, "clamped", json_integer((json_int_t)sum->clamped));
+    object = pm_report_add(object, "vanished", json_integer((json_int_t)sum->vanished));
+    return pm_report_add(object, "bytes", json_integer((json_int_t)sum->bytes));
+}
+
 json_t *pm_report_map(const pm_photon_map *map)
 {
-    json_t *object = json_pack("{s:I,s:I}", "emitted", (json_int_t)map->emitted, "stored",
-                               (json_int_t)map->count);
-    object = pm_report_add(object, "power", pm_report_spectrum(pm_map_power(map)));
-    object = pm_report_add(object, "refused", json_integer((json_int_t)map->refused));
-    object = pm_report_add(object, "clamped", json_integer((json_int_t)map->clamped));
-    object = pm_report_add(object, "vanished", json_integer((json_int_t)map->vanished));
-    return pm_report_add(object, "bytes", json_integer((json_int_t)pm_photon_map_bytes(map)));
+    pm_map_sum sum = pm_map_sum_of(map);
+    return pm_report_map_sum(&sum);
 }
 
 json_t *pm_report_notes(const pm_scene *scene)

@@ -6,6 +6,7 @@
 #define PM_REPORT_H
 
 #include "audit.h"
+#include "map_power.h"
 #include "options.h"
 #include "photon_pass.h"
 #include "plan.h"
@@ -41,8 +42,9 @@ json_t *pm_report_by_shape(const pm_scene *scene, const pm_audit *audit);
 /// {id: {collisions, incident[3], absorbed[3]}, ..}, powers in W.
 json_t *pm_report_by_medium(const pm_scene *scene, const pm_audit *audit);
 
-/// {emitted, stored, power[3], refused, clamped, vanished, bytes} of one map.
+/// {emitted, stored, power[3], refused, clamped, vanished, bytes} of one map, or of many.
 json_t *pm_report_map(const pm_photon_map *map);
+json_t *pm_report_map_sum(const pm_map_sum *sum);
 
 /// Lines about what the scene file says that is not used.
 json_t *pm_report_notes(const pm_scene *scene);

@@ -4,7 +4,7 @@
 #include "photon_map.h"
 #include "png.h"
 #include "program.h"
-#include "render.h"
+#include "render_passes.h"
 #include "render_report.h"
 #include "world.h"
 
@@ -27,7 +27,10 @@ static const pm_options_program program = {
     .notes =
         "-o or --png must be given. -o writes an EXR file with the layers direct, specular,\n"
         "caustic, indirect, volume and emission, which add up to R G B, and depth, normal,\n"
-        "gather and mask.emitter. --map takes what storage -o wrote of the same scene.",
+        "gather and mask.emitter. --map takes what storage -o wrote of the same scene.\n"
+        "--progressive writes its pictures and the checkpoint again every few seconds, each "
+        "of\n"
+        "whole passes; SIGINT (Ctrl-C) ends with the picture of the passes that are done.",
 };
 
 /// What stays open while the program works.
@@ -36,6 +39,7 @@ typedef struct {
     pm_world world;
     pm_render_settings settings;
     pm_render_maps maps;
+    pm_progressive progressive;
     pm_image image;
     pm_eye_report eye;
 } pm_job;
@@ -90,10 +94,6 @@ static pm_status load_map(pm_job *job, const char *path)
 static pm_status make_picture(pm_job *job)
 {
     const pm_options *options = job->options;
-    if (options->output == NULL && options->png == NULL) {
-        return pm_status_fail(
-            PM_EINPUT, "render: say where the picture goes: -o FILE.exr or --png FILE.png");
-    }
     PM_TRY(pm_render_make_maps(&job->world.rays, &job->settings, &job->maps));
     PM_TRY(
         pm_render_image(&job->world.rays, &job->settings, &job->maps, &job->image, &job->eye));
@@ -104,6 +104,34 @@ static pm_status make_picture(pm_job *job)
         PM_TRY(pm_png_write(options->png, &job->image, options->exposure));
     }
     return PM_OK;
+}
+
+static pm_status report(pm_job *job)
+{
+    pm_render_done done = {
+        .scene = &job->world.scene,
+        .settings = &job->settings,
+        .maps = &job->maps,
+        .eye = &job->eye,
+        .progressive = job->options->progressive ? &job->progressive : NULL,
+        .passes = job->options->passes,
+    };
+    return pm_render_report(job->options, &done);
+}
+
+/// The mean of many pictures. Stopped on the way, it reports what there is.
+static pm_status make_passes(pm_job *job)
+{
+    pm_status made = pm_render_passes(&job->world.rays, job->options, &job->settings,
+                                      &job->progressive, &job->image, &job->eye);
+    bool stopped = made == PM_ESTOPPED && job->progressive.passes > 0;
+    if (made != PM_OK && !stopped) {
+        return made;
+    }
+    PM_TRY(
+        pm_progressive_books(&job->world.scene, &job->settings, &job->progressive, &job->maps));
+    PM_TRY(report(job));
+    return made;
 }
 
 static pm_status explain(pm_job *job)
@@ -127,8 +155,15 @@ static pm_status run(pm_job *job)
     if (options->explain) {
         return explain(job);
     }
+    if (options->output == NULL && options->png == NULL) {
+        return pm_status_fail(
+            PM_EINPUT, "render: say where the picture goes: -o FILE.exr or --png FILE.png");
+    }
+    if (options->progressive) {
+        return make_passes(job);
+    }
     PM_TRY(make_picture(job));
-    return pm_render_report(options, &job->world.scene, &job->settings, &job->maps, &job->eye);
+    return report(job);
 }
 
 int main(int argc, char **argv)
@@ -142,6 +177,7 @@ int main(int argc, char **argv)
     pm_status status = run(&job);
     pm_image_free(&job.image);
     pm_render_maps_free(&job.maps);
+    pm_progressive_free(&job.progressive);
     pm_world_close(&job.world);
     return pm_program_end(status);
 }
