@@ -59,7 +59,7 @@ static double seen_before(const pm_span *span, double t)
     return (atan((t - span->foot) / span->apart) - low) / (high - low);
 }
 
-static const double endings[3] = {0.5, 4.0, INFINITY};
+static const double endings[3] = {0.5, 4.0, HUGE_VAL};
 
 static void draws_follow_both_laws(void)
 {
@@ -113,7 +113,7 @@ static void check_draws(const pm_span *span)
 
 static void extremes_are_numbers(void)
 {
-    static const double lengths[4] = {1e-12, 1.0, 1e6, INFINITY};
+    static const double lengths[4] = {1e-12, 1.0, 1e6, HUGE_VAL};
     static const double densities[4] = {1e-12, 1.0, 1e6, 1e12};
     static const double asides[6] = {0.0, 1e-300, 1e-100, 1e-16, 1.0, 1e6};
     static const double aheads[7] = {-1e6, -1.0, -1e-16, 0.0, 1e-16, 1.0, 1e6};
@@ -182,8 +182,8 @@ static void cones_clip_where_the_light_ends(void)
 {
     int left = 0;
     for (uint64_t i = 0; i < 300; i++) {
-        left += check_spot(i, 0.02, INFINITY);
-        left += check_spot(i, 0.4, INFINITY);
+        left += check_spot(i, 0.02, HUGE_VAL);
+        left += check_spot(i, 0.4, HUGE_VAL);
         left += check_spot(i, 1.5, 3.0);
     }
     CHECK_THAT(left > 300 && left < 850, "%d left", left); // both happen
