@@ -84,7 +84,7 @@ static void proposed(void)
 {
     CHECK(pm_scene_words_plugin("shape", "diffuse") == NULL);
     CHECK_CONTAINS(pm_scene_words_nearest_plugin("emitter", "sport"), "spot");
-    CHECK_CONTAINS(pm_scene_words_nearest_plugin("phase", "sport"), "isotropic");
+    CHECK_CONTAINS(pm_scene_words_nearest_plugin("phase", "isotrop"), "isotropic");
     CHECK_CONTAINS(pm_scene_words_nearest_element("mediun"), "medium");
     CHECK(pm_scene_words_nearest_plugin("integrator", "path") == NULL);
 }
