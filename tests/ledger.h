@@ -9,7 +9,7 @@
 enum { PM_LEDGER_PATH = 64 };
 
 typedef struct {
-    uint64_t deposits, first, caustic;
+    uint64_t deposits, first, caustic, in_medium;
     uint64_t specular_late;                // deposits after an S event that are no caustics
     uint64_t lengths[PM_LEDGER_PATH];      // photons by events that carried them on
     uint64_t absorbed, escaped, cut, done; // photons by how they ended

@@ -8,8 +8,7 @@
 
 static const pm_rng_source source = {.seed = 7, .stream = PM_STREAM_TEST};
 
-static pm_medium media[2] = {{.albedo = {{0.5, 0.25, 0.0}}}, {.albedo = {{1.0, 1.0, 1.0}}}};
-static const pm_scene scene = {.shape_count = 3, .media = media, .medium_count = 2};
+static const pm_scene scene = {.shape_count = 3};
 
 static pm_lobes lobes_of(pm_spectrum albedo)
 {
@@ -296,5 +295,7 @@ PM_TESTS({"audit.1", "three photons' books, by hand", three_photons_by_hand},
           forty_million_photons_close},
          {"audit.6", "a roulette that does not divide, or tint, or divides by .999 is caught",
           wrong_roulettes_are_caught},
-         {"audit.7", "an honest roulette passes, also where hardly a photon survives",
-          right_roulettes_pass_always})
+         {
+    "audit.7", "an honest roulette passes, also where hardly a photon survives",
+        right_roulettes_pass_always}
+})
