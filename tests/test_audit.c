@@ -295,7 +295,5 @@ PM_TESTS({"audit.1", "three photons' books, by hand", three_photons_by_hand},
           forty_million_photons_close},
          {"audit.6", "a roulette that does not divide, or tint, or divides by .999 is caught",
           wrong_roulettes_are_caught},
-         {
-    "audit.7", "an honest roulette passes, also where hardly a photon survives",
-        right_roulettes_pass_always}
-})
+         {"audit.7", "an honest roulette passes, also where hardly a photon survives",
+          right_roulettes_pass_always})
