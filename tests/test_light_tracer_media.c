@@ -55,12 +55,12 @@ static void fog_in_every_light_is_what_eyes_find(void)
     for (pm_light_type type = PM_LIGHT_POINT; type <= PM_LIGHT_CONSTANT; type++) {
         pm_scenes s;
         ball_begin(&s, type);
-        pm_pictures_means got = pm_films_repeat(&s, 3000, 16);
-        pm_pictures_means want = pm_references_trace(&s, 128);
+        pm_pictures_means got = pm_films_repeat(&s, 2000, 12);
+        pm_pictures_means want = pm_references_trace(&s, 64);
         CHECK_THAT(want.mean[PM_LAYER_VOLUME].c[0] > 0.0, "%s", pm_light_name(type));
         agree(&got, &want);
-        check_noise(&want, PM_LAYER_VOLUME, 0.2);
-        check_noise(&got, PM_LAYER_VOLUME, 0.5);
+        check_noise(&want, PM_LAYER_VOLUME, 0.4);
+        check_noise(&got, PM_LAYER_VOLUME, 0.6);
         pm_scenes_free(&s);
     }
 }
@@ -81,16 +81,16 @@ static void caustics_in_fog_are_what_eyes_find(void)
 {
     pm_scenes s;
     room_begin(&s);
-    int lamp = pm_scenes_wear(&s, pm_scenes_square(0.5, 0.8, true), PM_NONE);
-    pm_scenes_lamp(&s, lamp, pm_rgb(8.0, 6.0, 4.0));
+    int lamp = pm_scenes_wear(&s, pm_scenes_square(1.0, 0.8, true), PM_NONE);
+    pm_scenes_lamp(&s, lamp, pm_rgb(4.0, 3.0, 2.0));
     pm_scenes_ready(&s);
     pm_pictures_look(&s, pm_vec(0.0, -0.95, 0.0), pm_vec(0.0, 1.0, -0.2), 0.7, 8);
-    pm_pictures_means got = pm_films_repeat(&s, 6000, 16);
-    pm_pictures_means want = pm_references_trace(&s, 200);
+    pm_pictures_means got = pm_films_repeat(&s, 5000, 12);
+    pm_pictures_means want = pm_references_trace(&s, 100);
     agree(&got, &want);
     CHECK(got.mean[PM_LAYER_CAUSTIC].c[0] > 0.0);
-    check_noise(&want, PM_LAYER_VOLUME, 0.2);
-    check_noise(&got, PM_LAYER_VOLUME, 0.2);
+    check_noise(&want, PM_LAYER_VOLUME, 0.3);
+    check_noise(&got, PM_LAYER_VOLUME, 0.4);
     pm_scenes_free(&s);
 }
 
@@ -103,17 +103,14 @@ static void the_two_passes_share_the_fog(void)
     pm_scenes_point(&s, pm_vec(0.02, 0.36, 0.7), pm_rgb(6.0, 5.0, 4.0));
     pm_scenes_ready(&s);
     pm_pictures_look(&s, pm_vec(0.0, -0.95, 0.0), pm_vec(0.0, 1.0, -0.2), 0.7, 8);
-    pm_pictures_means want = pm_films_repeat(&s, 4000, 16);
-    pm_reference_settings settings = pm_references_settings(32);
-    pm_pictures_means eye = pm_references_repeat(&s, settings, 16);
+    pm_pictures_means want = pm_films_repeat(&s, 4000, 12);
+    pm_reference_settings settings = pm_references_settings(16);
+    pm_pictures_means eye = pm_references_repeat(&s, settings, 12);
     settings.light_paths = 4000;
-    pm_pictures_means got = pm_references_repeat(&s, settings, 16);
+    pm_pictures_means got = pm_references_repeat(&s, settings, 12);
     agree(&got, &want);
-    double missing = want.mean[PM_LAYER_VOLUME].c[0] - eye.mean[PM_LAYER_VOLUME].c[0];
-    double variance = want.variance[PM_LAYER_VOLUME].c[0] + eye.variance[PM_LAYER_VOLUME].c[0];
-    CHECK_THAT(missing > 5.0 * sqrt(variance),
-               "glass sends no light into the fog: %g of %g, sigma %g", missing,
-               want.mean[PM_LAYER_VOLUME].c[0], sqrt(variance));
+    // The eye's part is the same in both.
+    CHECK(got.mean[PM_LAYER_VOLUME].c[0] > 1.05 * eye.mean[PM_LAYER_VOLUME].c[0]);
     CHECK(eye.mean[PM_LAYER_CAUSTIC].c[0] == 0.0 && got.mean[PM_LAYER_CAUSTIC].c[0] > 0.0);
     pm_scenes_free(&s);
 }

@@ -285,8 +285,8 @@ static void foggy_room_agrees_with_chance(void)
     pm_scenes_ready(&s);
     pm_pictures_look(&s, pm_vec(0.0, -0.95, 0.1), pm_vec(0.0, 1.0, 0.0), 0.9, 16);
     s.scene.camera.medium = fog;
-    pm_pictures_means want = pm_tiny_trace(&s.world, 60000);
-    pm_pictures_means got = pm_references_trace(&s, 64);
+    pm_pictures_means want = pm_tiny_trace(&s.world, 40000);
+    pm_pictures_means got = pm_references_trace(&s, 40);
     agree(&got, &want);
     for (int layer = 0; layer < PM_LAYER_COUNT; layer++) {
         CHECK(want.mean[layer].c[0] > 0.0);
@@ -322,8 +322,8 @@ static void nested_fogs_agree_with_chance(void)
 {
     pm_scenes s;
     nested_begin(&s);
-    pm_pictures_means want = pm_tiny_trace(&s.world, 60000);
-    pm_pictures_means got = pm_references_trace(&s, 64);
+    pm_pictures_means want = pm_tiny_trace(&s.world, 40000);
+    pm_pictures_means got = pm_references_trace(&s, 40);
     agree(&got, &want);
     CHECK(want.mean[PM_LAYER_CAUSTIC].c[0] > 0.0);
     pm_scenes_free(&s);

@@ -285,6 +285,34 @@ static void blindness_is_named(void)
     pm_scenes_free(&s);
 }
 
+/// Nothing here spreads light but the fog.
+static void blindness_in_fog_is_named(void)
+{
+    pm_scenes s;
+    pm_scenes_begin(&s);
+    int fog = pm_scenes_medium(&s, 1.0, pm_gray(0.0), 0.0);
+    pm_scenes_bound(&s, pm_shapes_sphere(pm_vec(0.0, 0.0, 0.0), 1.0), fog, PM_NONE);
+    int ball = pm_scenes_wear(&s, pm_shapes_sphere(pm_vec(0.0, 0.0, 0.0), 0.5),
+                              pm_scenes_glass(&s, 1.5));
+    pm_scenes_sun(&s, pm_vec(0.0, 0.0, -1.0), pm_gray(1.0));
+    pm_scenes_ready(&s);
+    check_blind(&s, false, ""); // it scatters nothing
+    s.media[fog].albedo = pm_rgb(0.0, 0.0, 0.1);
+    check_blind(&s, false,
+                "missing: caustics of directional lights by smooth glass and mirrors, in media"
+                " too, the indirect light these give (--light-paths N traces both), and what"
+                " glass and mirrors show of them");
+    check_blind(&s, true,
+                "missing: what smooth glass and mirrors show of the caustics of directional"
+                " lights, in media too, and of the light these give");
+    s.media[fog].sigma_t = 0.0;
+    check_blind(&s, true, "");
+    s.media[fog].sigma_t = 1.0;
+    s.shapes[ball].material[0] = s.shapes[ball].material[1] = pm_scenes_null(&s);
+    check_blind(&s, false, ""); // light comes straight
+    pm_scenes_free(&s);
+}
+
 static void light_paths_are_traced_where_they_find_something(void)
 {
     pm_scenes s;
@@ -388,6 +416,8 @@ PM_TESTS({"reference_picture.1", "layers add up to R G B, and halves to twice th
           wrong_numbers_are_refused},
          {"reference_picture.8", "what the picture cannot show is named, and nothing else",
           blindness_is_named},
+         {"reference_picture.13", "what the picture cannot show of light in fog is named",
+          blindness_in_fog_is_named},
          {"reference_picture.9", "light paths are traced only where they find something",
           light_paths_are_traced_where_they_find_something},
          {"reference_picture.10", "a picture is called black, or too bright for a float",
