@@ -49,7 +49,7 @@ static void spots_in_endless_fog(void)
         for (int piece = 0; piece < 900; piece++) { // the cone's edges are kinks
             want += pm_integral(pm_glows_scattered, &in, 0.01 * piece, 0.01 * (piece + 1));
         }
-        pm_glows_check(&s, &in.along, want, 0.03);
+        pm_glows_check(&s, &in.along, want, 0.004);
         pm_scenes_free(&s);
     }
 }

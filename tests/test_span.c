@@ -175,6 +175,9 @@ static bool check_spot(uint64_t number, double cutoff, double t_max)
             CHECK_THAT(inside == is_lit(&spot, &ray, t), "spot %d at %g", (int)number, t);
         }
     }
+    if (left && number % 10 == 0) {
+        CHECK_NEAR(pm_integral(density, &span, span.begin, span.end), 1.0, 1e-7);
+    }
     return left;
 }
 
