@@ -30,8 +30,9 @@ static void cut(double low, double high, double origin, double direction, double
 {
     double one = (low - origin) / direction;
     double other = (high - origin) / direction;
-    double in = direction < 0.0 ? other : one;
-    double out = direction < 0.0 ? one : other;
+    bool backward = signbit(direction); // of -0, too
+    double in = backward ? other : one;
+    double out = backward ? one : other;
     *enter = in > *enter ? in : *enter;
     *leave = out < *leave ? out : *leave;
 }
