@@ -264,6 +264,50 @@ static void coloured_fog_keeps_its_albedo(void)
     }
 }
 
+// --- directions
+
+/// Cosines between the ways before and after collisions.
+typedef struct {
+    pm_vec3 before;
+    bool turned; // by the last event of this photon
+    double sum;
+    uint64_t count;
+} turns;
+
+static void note_turn(void *context, const pm_start *start, const pm_event *event)
+{
+    turns *t = context;
+    (void)start;
+    if (event->bounce > 0 && t->turned) {
+        t->sum += pm_vec_dot(t->before, event->direction);
+        t->count++;
+    }
+    t->before = event->direction;
+    t->turned = event->scatter == 'V';
+}
+
+static void collisions_turn_photons_by_g(void)
+{
+    static const double gs[3] = {-0.6, 0.0, 0.8};
+    for (int i = 0; i < 3; i++) {
+        turns t = {0};
+        pm_scenes s;
+        pm_ledger l;
+        begin(&s);
+        s.lights[0].medium = pm_scenes_medium(&s, 2.0, pm_gray(0.7), gs[i]);
+        pm_scenes_wear(&s, pm_scenes_square(1.0, 0.0, false), pm_scenes_null(&s));
+        pm_scenes_ready(&s);
+        pm_tracing tracing = pm_ledger_open(&s, &l);
+        tracing.sink = (pm_trace_sink){&t, pass_by, note_turn};
+        pm_ledger_trace(&s, &tracing, COUNT);
+        double n = (double)t.count;
+        CHECK(t.count > COUNT);
+        CHECK_NEAR(t.sum / n, gs[i],
+                   pm_chance_bound((1.0 + 2.0 * gs[i] * gs[i]) / 3.0 - gs[i] * gs[i], n));
+        pm_scenes_free(&s);
+    }
+}
+
 PM_TESTS({"trace_media.1", "a slab lets exp(-depth) through, whatever it scatters",
           slabs_let_through_what_they_should},
          {"trace_media.2", "depths of media in a row add up", depths_of_media_in_a_row_add_up},
@@ -278,4 +322,6 @@ PM_TESTS({"trace_media.1", "a slab lets exp(-depth) through, whatever it scatter
          {"trace_media.7", "fog without end: density and number of collisions",
           fog_without_end},
          {"trace_media.8", "coloured fog keeps its albedo by either roulette rule",
-          coloured_fog_keeps_its_albedo})
+          coloured_fog_keeps_its_albedo},
+         {"trace_media.9", "collisions turn photons by g, on from the way they came",
+          collisions_turn_photons_by_g})
