@@ -462,22 +462,22 @@ static void indirect_light_comes_from_media_too(void)
 
 static void dispersion_is_planned_where_a_shape_wears_such_glass(void)
 {
-    for (int worn = 0; worn < 2; worn++) {
+    for (int dressed = 0; dressed < 2; dressed++) {
         pm_scenes s;
         pm_scenes_begin(&s);
         int plain = pm_scenes_glass(&s, 1.5);
         int flint = pm_scenes_glass(&s, 1.5);
         s.materials[flint].glass = pm_glass_named("sf11");
         pm_shape sphere = pm_shapes_sphere(pm_vec(0.0, 0.0, 0.5), 0.2);
-        int ball = pm_scenes_wear(&s, sphere, worn ? flint : plain);
+        int ball = pm_scenes_wear(&s, sphere, dressed ? flint : plain);
         s.shapes[ball].id = "ball";
         pm_scenes_point(&s, pm_vec(0.0, 0.0, 1.0), pm_gray(1.0));
         pm_scenes_ready(&s);
         pm_plan plan = pm_plan_scene(&s.scene);
-        const expectation e = {.what = worn ? "flint" : "crown"};
-        check_part(&plan, &e, PM_PLAN_DISPERSION, worn != 0);
+        const expectation e = {.what = dressed ? "flint" : "crown"};
+        check_part(&plan, &e, PM_PLAN_DISPERSION, dressed != 0);
         CHECK_CONTAINS(plan.item[PM_PLAN_DISPERSION].why,
-                       worn ? "ball is of sf11" : "no glass that disperses");
+                       dressed ? "ball is of sf11" : "no glass that disperses");
         pm_scenes_free(&s);
     }
 }

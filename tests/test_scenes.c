@@ -22,20 +22,25 @@ typedef struct {
 
 static const row rows[] = {
     {"cornell-diffuse", "light-source", "6.45", 24},
+    {"cornell-fog", "light-source", "6.45", 12},
     {"cornell-glossy", "light-source", "6.45", 0},
     {"cornell-spheres", "light-source", "6.45", 0},
     {"furnace", "glow", "75.398", 12},
+    {"glass-fog", "light", "42.6367", 12},
     {"integrating-sphere", "lamp", "12.566", 0},
+    {"lecture", "light-source", "6.45", 12},
     {"lights", "strong", "82.905", 0},
     {"lights", "stage-light", "1.91132", 0},
     {"lights", "weak", "0.075398", 0},
     {"lights", "sky", "5.7192", 0},
     {"mesh-spheres", "sun", "810.53", 640},
+    {"prism", "lamp", "2.26195", 8},
     {"ring", "sun", "170.02", 0},
     {"shell", "warm", "117.62", 52000},
     {"shell", "cool", "20.106", 52000},
     {"sparse", "lamp", "50.2655", 24},
     {"square-over-floor", "light-source", "3.14159", 0},
+    {"sun", "sun", "750.966", 24},
     {"water", "sun", "109.61", 73728},
 };
 enum { ROWS = sizeof rows / sizeof rows[0] };
