@@ -138,6 +138,7 @@ static void read_sensor(pm_scene_file *source, const pm_xml *sensor)
 
 void pm_scene_build_camera(pm_scene_file *source)
 {
+    source->scene.camera.medium = PM_NONE;
     note_unused(source, source->root);
     for (const pm_xml *e = source->root->child; e != NULL; e = e->next) {
         if (strcmp(e->tag, "sensor") == 0) {

@@ -176,54 +176,56 @@ int pm_scene_build_stand(pm_scene_file *source, const pm_xml *object)
     return medium == NULL ? PM_NONE : medium->index;
 }
 
-/// Calls `each` with every place where an index of a medium stands.
-static void each_stand(pm_scene *scene, void (*each)(int *medium, int *table), int *table)
+/// The index of a medium that stands at place number `i` of the scene: the sides of all shapes,
+/// then all lights, then the camera; NULL behind the last one.
+static int *index_at(pm_scene *scene, int64_t i)
 {
-    for (int i = 0; i < scene->shape_count; i++) {
-        each(&scene->shapes[i].interior, table);
-        each(&scene->shapes[i].exterior, table);
+    int64_t sides = 2 * (int64_t)scene->shape_count;
+    if (i < sides) {
+        pm_shape *shape = &scene->shapes[i / 2];
+        return i % 2 == 0 ? &shape->interior : &shape->exterior;
     }
-    for (int i = 0; i < scene->light_count; i++) {
-        each(&scene->lights[i].medium, table);
+    if (i < sides + scene->light_count) {
+        return &scene->lights[i - sides].medium;
     }
-    if (scene->has_camera) {
-        each(&scene->camera.medium, table);
-    }
+    return i == sides + scene->light_count ? &scene->camera.medium : NULL;
 }
 
-static void mark(int *medium, int *table)
+/// Sets used[i] for every medium that something refers to, and notes the others.
+static void find_used(pm_scene_file *source, int *used)
 {
-    if (*medium != PM_NONE) {
-        table[*medium] = 1;
+    int *index;
+    for (int64_t i = 0; (index = index_at(&source->scene, i)) != NULL; i++) {
+        if (*index != PM_NONE) {
+            used[*index] = 1;
+        }
     }
-}
-
-static void rename_by(int *medium, int *table)
-{
-    *medium = *medium == PM_NONE ? PM_NONE : table[*medium];
+    for (pm_xml *e = source->root; e != NULL; e = pm_xml_following(source->root, e)) {
+        if (strcmp(e->tag, "medium") == 0 && used[e->index] == 0) {
+            pm_scene_file_note(source, e, "nothing is in this medium: it is not used");
+        }
+    }
 }
 
 void pm_scene_drop_media(pm_scene_file *source)
 {
     pm_scene *scene = &source->scene;
-    int *table = pm_arena_take(&source->tree, (size_t)scene->medium_count, sizeof *table);
-    if (table == NULL) {
+    int *place = pm_arena_take(&source->tree, (size_t)scene->medium_count, sizeof *place);
+    if (place == NULL) {
         pm_faults_fail(&source->faults, PM_ENOMEM);
         return;
     }
-    each_stand(scene, mark, table);
-    for (pm_xml *e = source->root; e != NULL; e = pm_xml_following(source->root, e)) {
-        if (strcmp(e->tag, "medium") == 0 && table[e->index] == 0) {
-            pm_scene_file_note(source, e, "nothing is in this medium: it is not used");
-        }
-    }
+    find_used(source, place);
     int kept = 0;
     for (int i = 0; i < scene->medium_count; i++) {
-        if (table[i] != 0) {
+        if (place[i] != 0) {
             scene->media[kept] = scene->media[i];
-            table[i] = kept++;
+            place[i] = kept++;
         }
     }
     scene->medium_count = kept;
-    each_stand(scene, rename_by, table);
+    int *index;
+    for (int64_t i = 0; (index = index_at(scene, i)) != NULL; i++) {
+        *index = *index == PM_NONE ? PM_NONE : place[*index];
+    }
 }

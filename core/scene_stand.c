@@ -74,9 +74,6 @@ static int find_at_all(const finder *f, const pm_vec3 *points, int count)
 /// Just off the surface of an area light.
 static int find_off(const finder *f, const pm_shape *shape)
 {
-    if (shape->boundary) {
-        return shape->exterior;
-    }
     static const double square[4][2] = {{0.21, 0.33}, {0.72, 0.18}, {0.37, 0.81}, {0.86, 0.64}};
     pm_vec3 points[4];
     for (int i = 0; i < 4; i++) {
@@ -167,7 +164,7 @@ static void stand_camera(const finder *f, pm_camera *camera)
 /// one.
 static int find_everywhere(const pm_scene *scene)
 {
-    int medium = scene->has_camera ? scene->camera.medium : PM_NONE;
+    int medium = scene->camera.medium;
     for (int i = 0; i < scene->light_count && medium == PM_NONE; i++) {
         medium = scene->lights[i].medium;
     }
