@@ -8,8 +8,8 @@
 
 #include <math.h>
 
-#define LINES 16
-#define LINES_THROUGH 64
+#define LINES 8
+#define LINES_THROUGH 32
 #define CROSSINGS_MOST 1000 // of one line, which then says nothing of its far end
 
 bool pm_scene_inside_begin(pm_scene_file *source, pm_scene_inside *inside)

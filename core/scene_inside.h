@@ -22,10 +22,10 @@ typedef struct {
 /// pm_intersector_free() of its `world`. False without memory.
 bool pm_scene_inside_begin(pm_scene_file *source, pm_scene_inside *inside);
 
-/// Along 16 lines from `from` to points on the shapes, always the same ones.
+/// Along 8 lines from `from` to points on the shapes, always the same ones.
 pm_scene_place pm_scene_inside_at(const pm_scene_inside *inside, pm_vec3 from);
 
-/// Around the whole scene, along 64 lines right through it. Where two shapes that follow each
+/// Around the whole scene, along 32 lines right through it. Where two shapes that follow each
 /// other on a line contradict each other, these are told instead: they do not close, cut or
 /// touch each other.
 pm_scene_place pm_scene_inside_around(const pm_scene_inside *inside);
