@@ -223,6 +223,7 @@ static pm_status do_pass(const pm_intersector *world, pm_render_settings *settin
                          pm_eye_report *eye)
 {
     PM_TRY(pm_interrupt_check());
+    pm_render_maps_renew(maps);
     PM_TRY(pm_render_trace_maps(world, settings, maps));
     PM_TRY(set_reaches(maps, settings, first));
     PM_TRY(pm_render_ready_maps(world, settings, maps));

@@ -69,8 +69,9 @@ pm_status pm_progressive_begin(const pm_scene *scene, pm_progressive *progressiv
 ///                  estimate.radius that is the first radius of every map; else each map's is
 ///                  the mean distance of its k-th photon (first_radius.h) in the first pass
 ///                  where two of them lie apart; before that its photons are asked as ever
-/// @param maps      [in, out] zeroed; then those of this pass; free with pm_render_maps_free()
-///                  in any case
+/// @param maps      [in, out] zeroed, or those of another pass with these settings, whose plan
+///                  is kept; then those of this pass; free with pm_render_maps_free() in any
+///                  case
 /// @return PM_EINPUT for settings that make no passes (a stored number of photons, photons as
 ///         dots) and after PM_PROGRESSIVE_MOST passes; PM_ESTOPPED on SIGINT
 pm_status pm_progressive_pass(const pm_intersector *world, const pm_render_settings *settings,

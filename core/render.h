@@ -32,6 +32,7 @@ pm_render_settings pm_render_defaults(void);
 
 /// The maps of a picture and how they came to be.
 typedef struct {
+    bool planned; // pm_render_trace_maps() takes the plan as it is
     pm_plan plan;
     uint64_t photons[PM_MAP_COUNT]; // to emit for each map; 0: not traced
     uint64_t shadow_photons;        // besides; 0: none
@@ -76,7 +77,7 @@ bool pm_render_shows(const pm_render_settings *settings, pm_layer layer);
 /// Whether `precompute` finds something to do: a global map, and gather rays to look it up.
 bool pm_render_precomputes(const pm_render_settings *settings, const pm_render_maps *maps);
 
-/// Plans (pm_render_plan()), then traces and balances what was planned.
+/// Plans (pm_render_plan()), unless that is done, then traces and balances what was planned.
 /// A map that is there already (`has` set, from a file) is balanced if it is not and kept.
 ///
 /// @param maps  [in, out] zeroed, or with maps given; free with pm_render_maps_free() in any
@@ -93,6 +94,9 @@ pm_status pm_render_ready_maps(const pm_intersector *world, const pm_render_sett
 pm_status pm_render_make_maps(const pm_intersector *world, const pm_render_settings *settings,
                               pm_render_maps *maps);
 void pm_render_maps_free(pm_render_maps *maps);
+
+/// Forgets what was traced and keeps the plan, for another pass.
+void pm_render_maps_renew(pm_render_maps *maps);
 
 /// The picture with all its layers, as seen by the scene's camera from these maps.
 ///

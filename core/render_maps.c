@@ -7,6 +7,8 @@
 #include "lookup.h"
 #include "photon_map.h"
 
+#include <string.h>
+
 #define GIVE_UP_AFTER 100 // photons emitted for one that was to be stored
 
 pm_render_settings pm_render_defaults(void)
@@ -99,7 +101,10 @@ static pm_status make_beams(const pm_render_settings *settings, pm_render_maps *
 pm_status pm_render_trace_maps(const pm_intersector *world, const pm_render_settings *settings,
                                pm_render_maps *maps)
 {
-    PM_TRY(pm_render_plan(world->scene, settings, maps));
+    if (!maps->planned) {
+        PM_TRY(pm_render_plan(world->scene, settings, maps));
+        maps->planned = true;
+    }
     for (pm_map_kind kind = 0; kind < PM_MAP_COUNT; kind++) {
         if (maps->photons[kind] > 0) {
             PM_TRY(trace_map(world, settings, kind, maps));
@@ -126,15 +131,35 @@ pm_status pm_render_make_maps(const pm_intersector *world, const pm_render_setti
     return pm_render_ready_maps(world, settings, maps);
 }
 
-void pm_render_maps_free(pm_render_maps *maps)
+static void free_traced(pm_render_maps *maps)
 {
     for (pm_map_kind kind = 0; kind < PM_MAP_COUNT; kind++) {
         pm_photon_map_free(&maps->map[kind]);
         pm_pass_report_free(&maps->pass[kind]);
-        pm_projection_free(&maps->aim[kind]);
     }
     pm_photon_map_free(&maps->irradiance);
     pm_shadow_free(&maps->shadows);
     pm_beams_free(&maps->beams);
+}
+
+void pm_render_maps_free(pm_render_maps *maps)
+{
+    free_traced(maps);
+    for (pm_map_kind kind = 0; kind < PM_MAP_COUNT; kind++) {
+        pm_projection_free(&maps->aim[kind]);
+    }
     *maps = (pm_render_maps){0};
+}
+
+void pm_render_maps_renew(pm_render_maps *maps)
+{
+    free_traced(maps);
+    pm_render_maps fresh = {
+        .planned = maps->planned,
+        .plan = maps->plan,
+        .shadow_photons = maps->shadow_photons,
+    };
+    memcpy(fresh.photons, maps->photons, sizeof fresh.photons);
+    memcpy(fresh.aim, maps->aim, sizeof fresh.aim);
+    *maps = fresh;
 }

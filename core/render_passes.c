@@ -93,14 +93,11 @@ static pm_status resume(job *j)
     return PM_OK;
 }
 
-static pm_status do_passes(job *j)
+static pm_status do_passes(job *j, pm_render_maps *maps)
 {
     j->checkpoint.last = j->picture.last = pm_seconds_now();
     while (j->progressive->passes < j->options->passes) {
-        pm_render_maps maps = {0};
-        pm_status status = pm_progressive_pass(j->world, j->settings, j->progressive, &maps);
-        pm_render_maps_free(&maps);
-        PM_TRY(status);
+        PM_TRY(pm_progressive_pass(j->world, j->settings, j->progressive, maps));
         if (j->progressive->passes < j->options->passes) {
             PM_TRY(save_what_is_due(j));
         }
@@ -140,7 +137,9 @@ pm_status pm_render_passes(const pm_intersector *world, const pm_options *option
         .report = report,
     };
     PM_TRY(resume(&j));
-    pm_status status = do_passes(&j);
+    pm_render_maps maps = {0};
+    pm_status status = do_passes(&j, &maps);
+    pm_render_maps_free(&maps);
     if (status == PM_ESTOPPED) {
         return stop(&j);
     }
