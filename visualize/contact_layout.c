@@ -1,6 +1,6 @@
 // Where everything stands on a contact sheet. A block is a heading over a row of pictures, each
-// with its setting and its note beneath; blocks fill the sheet row by row. All of a kind are
-// equally large, so a column of the sheet is a column of settings.
+// with its setting and its note beneath; blocks fill the sheet row by row. All pictures are
+// equally far apart, so where blocks have as many, a column of the sheet is one of settings.
 #include "contact_layout.h"
 
 #include "figure.h"
@@ -26,51 +26,60 @@ static int longest_line(const pm_contact *sheet)
     return (int)ceil(most);
 }
 
-static int longest_heading(const pm_contact *sheet)
+/// Room for a block's heading and for what stands at its right.
+static int heading_width(const pm_contact_block *block)
 {
-    double most = 0.0;
-    for (int i = 0; i < sheet->block_count; i++) {
-        double letters = (double)strlen(sheet->block[i].scene) + PM_CONTACT_EXPOSURE_LETTERS;
-        most = fmax(most, bold_letter * PM_CONTACT_HEADING * letters);
-    }
-    return (int)ceil(most);
-}
-
-static int most_pictures(const pm_contact *sheet)
-{
-    int most = 0;
-    for (int i = 0; i < sheet->block_count; i++) {
-        most = sheet->block[i].count > most ? sheet->block[i].count : most;
-    }
-    return most;
+    double letters = (double)strlen(block->scene) + PM_CONTACT_EXPOSURE_LETTERS;
+    return (int)ceil(bold_letter * PM_CONTACT_HEADING * letters);
 }
 
 /// Sizes of the parts, in pixels.
 typedef struct {
     int pitch; // from one picture of a block to the next
-    int block_width, block_height;
+    int widest_block, block_height;
 } measures;
+
+static int block_width(const pm_contact_block *block, int pitch)
+{
+    int row = block->count * pitch - PM_CONTACT_GAP;
+    int heading = heading_width(block);
+    return heading > row ? heading : row;
+}
 
 static measures measure(const pm_contact *sheet)
 {
     int line = longest_line(sheet);
     int cell = line > sheet->picture_width ? line : sheet->picture_width;
-    int row = most_pictures(sheet) * (cell + PM_CONTACT_GAP) - PM_CONTACT_GAP;
-    int heading = longest_heading(sheet);
-    return (measures){
+    measures m = {
         .pitch = cell + PM_CONTACT_GAP,
-        .block_width = heading > row ? heading : row,
         .block_height = PM_CONTACT_ABOVE + sheet->picture_height + PM_CONTACT_BELOW,
     };
+    for (int i = 0; i < sheet->block_count; i++) {
+        int width = block_width(&sheet->block[i], m.pitch);
+        m.widest_block = width > m.widest_block ? width : m.widest_block;
+    }
+    return m;
 }
 
-static void size_sheet(pm_contact *sheet, const measures *m, int columns)
+/// Puts blocks in rows that have room for `columns` of the widest, and sizes the sheet to it.
+static void place_blocks(pm_contact *sheet, const measures *m, int columns)
 {
-    int rows = (sheet->block_count + columns - 1) / columns;
-    int width = 2 * PM_CONTACT_MARGIN + columns * (m->block_width + PM_CONTACT_AISLE) -
-                PM_CONTACT_AISLE;
+    int room = columns * (m->widest_block + PM_CONTACT_AISLE) - PM_CONTACT_AISLE;
+    int x = 0;
+    int row = 0;
+    for (int i = 0; i < sheet->block_count; i++) {
+        int width = block_width(&sheet->block[i], m->pitch);
+        if (x > 0 && x + width > room) {
+            x = 0;
+            row++;
+        }
+        sheet->block[i].x = PM_CONTACT_MARGIN + x;
+        sheet->block[i].y = PM_CONTACT_TOP + row * (m->block_height + PM_CONTACT_AISLE);
+        x += width + PM_CONTACT_AISLE;
+    }
+    int width = 2 * PM_CONTACT_MARGIN + room;
     sheet->width = width > PM_CONTACT_WIDTH_MIN ? width : PM_CONTACT_WIDTH_MIN;
-    sheet->height = PM_CONTACT_TOP + rows * (m->block_height + PM_CONTACT_AISLE);
+    sheet->height = PM_CONTACT_TOP + (row + 1) * (m->block_height + PM_CONTACT_AISLE);
 }
 
 /// How far the sheet is from the shape that screens like, as a ratio above 1; a sheet that is
@@ -87,7 +96,7 @@ static int choose_columns(pm_contact *sheet, const measures *m)
     int best = 1;
     double least = HUGE_VAL;
     for (int columns = 1; columns <= sheet->block_count; columns++) {
-        size_sheet(sheet, m, columns);
+        place_blocks(sheet, m, columns);
         double off = distance(sheet);
         if (off < least) {
             least = off;
@@ -100,8 +109,7 @@ static int choose_columns(pm_contact *sheet, const measures *m)
 pm_status pm_contact_lay(pm_contact *sheet)
 {
     measures m = measure(sheet);
-    int columns = choose_columns(sheet, &m);
-    size_sheet(sheet, &m, columns);
+    place_blocks(sheet, &m, choose_columns(sheet, &m));
     if (!(distance(sheet) < HUGE_VAL)) {
         return pm_status_fail(
             PM_EINPUT,
@@ -111,9 +119,7 @@ pm_status pm_contact_lay(pm_contact *sheet)
             sheet->height, PM_FIGURE_SIZE_MAX);
     }
     for (int b = 0; b < sheet->block_count; b++) {
-        pm_contact_block *block = &sheet->block[b];
-        block->x = PM_CONTACT_MARGIN + b % columns * (m.block_width + PM_CONTACT_AISLE);
-        block->y = PM_CONTACT_TOP + b / columns * (m.block_height + PM_CONTACT_AISLE);
+        const pm_contact_block *block = &sheet->block[b];
         for (int i = 0; i < block->count; i++) {
             sheet->picture[block->first + i].x = block->x + i * m.pitch;
             sheet->picture[block->first + i].y = block->y + PM_CONTACT_ABOVE;

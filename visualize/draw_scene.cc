@@ -19,7 +19,8 @@ const double crease_cosine = 0.87; // edges between flatter triangles are not dr
 /// What a shape is, for its colour and its word.
 struct look {
     pm_colour edge, face;
-    const char *word; // NULL: none
+    const char *word;              // NULL: none
+    double opacity = face_opacity; // of its faces; 0: only edges are drawn
 };
 
 look look_of(const pm_scene *scene, const pm_shape *shape)
@@ -50,7 +51,9 @@ look look_of(const pm_scene *scene, const pm_shape *shape)
     case PM_BSDF_NULL:
         break;
     }
-    return {pm_colour_dim(plain, 0.6), pm_colour_dim(plain, 0.6), nullptr};
+    // Nothing is there, or only the end of a medium: what is inside has to be seen.
+    pm_colour dim = pm_colour_dim(plain, 0.6);
+    return {dim, dim, shape->boundary ? "medium" : nullptr, 0.0};
 }
 
 std::vector<pm_vec3> circle(pm_vec3 center, pm_vec3 normal, double radius)
@@ -71,7 +74,7 @@ pm_vec3 draw_rectangle(pm_drawing *drawing, const pm_shape *s, const look &l)
     pm_vec3 right = pm_vec_add(s->corner, s->edge[0]);
     const std::vector<pm_vec3> rim = {s->corner, right, pm_vec_add(right, s->edge[1]),
                                       pm_vec_add(s->corner, s->edge[1])};
-    drawing->polygon(rim, l.face, face_opacity);
+    drawing->polygon(rim, l.face, l.opacity);
     drawing->outline(rim, l.edge, edge_opacity);
     return pm_vec_scale(pm_vec_add(rim[0], rim[2]), 0.5);
 }
@@ -79,7 +82,7 @@ pm_vec3 draw_rectangle(pm_drawing *drawing, const pm_shape *s, const look &l)
 pm_vec3 draw_disk(pm_drawing *drawing, const pm_shape *s, const look &l)
 {
     const std::vector<pm_vec3> rim = circle(s->center, s->axis, s->radius);
-    drawing->polygon(rim, l.face, face_opacity);
+    drawing->polygon(rim, l.face, l.opacity);
     drawing->outline(rim, l.edge, edge_opacity);
     return s->center;
 }
@@ -92,7 +95,7 @@ pm_vec3 draw_cylinder(pm_drawing *drawing, const pm_shape *s, const look &l)
     for (size_t i = 0; i < sides; i++) {
         size_t next = (i + 1) % sides;
         const pm_vec3 side[4] = {near[i], near[next], far[next], far[i]};
-        drawing->quad(side, l.face, face_opacity);
+        drawing->quad(side, l.face, l.opacity);
     }
     drawing->outline(near, l.edge, edge_opacity);
     drawing->outline(far, l.edge, edge_opacity);
@@ -109,7 +112,7 @@ pm_vec3 draw_sphere(pm_drawing *drawing, const pm_shape *s, const look &l, pm_ve
         double ratio = s->radius / distance;
         const std::vector<pm_vec3> rim = circle(pm_vec_along(s->center, n, s->radius * ratio),
                                                 n, s->radius * std::sqrt(1.0 - ratio * ratio));
-        drawing->polygon(rim, l.face, face_opacity);
+        drawing->polygon(rim, l.face, l.opacity);
         drawing->outline(rim, l.edge, edge_opacity);
     }
     const pm_vec3 axes[3] = {pm_vec(1, 0, 0), pm_vec(0, 1, 0), pm_vec(0, 0, 1)};
@@ -179,7 +182,7 @@ pm_vec3 draw_mesh(pm_drawing *drawing, const pm_shape *s, const look &l)
     pm_vec3 sum = pm_vec(0, 0, 0);
     vtkIdType first = 0;
     for (uint32_t i = 0; i < s->vertex_count; i++) {
-        vtkIdType id = drawing->vertex(s->vertices[i], l.face, face_opacity);
+        vtkIdType id = drawing->vertex(s->vertices[i], l.face, l.opacity);
         first = i == 0 ? id : first;
         sum = pm_vec_add(sum, s->vertices[i]);
     }

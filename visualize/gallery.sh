@@ -1,7 +1,14 @@
 #!/bin/sh
-# The gallery behind `make gallery`: gallery.sh BIN, from the top folder. Renders every scene that
-# has a camera twice, quick and good, and lays all pictures on one sheet. Everything lands in
-# build/gallery; a picture that is newer than its scene and render is kept.
+# The gallery behind `make gallery`: gallery.sh BIN, from the top folder. Everything lands in
+# build/gallery; a picture that is newer than its scene and its program is kept.
+#
+# From the environment: ONLY, one of
+#   scenes   every scene that has a camera, quick and good, on contact.png
+#   lecture  the lecture's pictures, on lecture.png: first one box whose light is built up step by
+#            step, then a picture of each effect
+#   beside   one scene (SCENE, cornell-fog by default) by photons and by path tracing, on
+#            beside-SCENE.png
+# or nothing for the first two.
 set -eu
 
 bin=$1
@@ -9,30 +16,92 @@ out=build/gallery
 size=192x192
 mkdir -p "$out"
 
-# picture SCENE NAME OPTIONS: renders $out/NAME.exr with its report.
+# picture PROGRAM SCENE NAME OPTIONS: makes $out/NAME.exr with its report, and adds it to the
+# sheet.
 picture() {
-    scene=$1
-    made=$out/$2
-    shift 2
-    [ "$made.exr" -nt "$scene" ] && [ "$made.exr" -nt "$bin/render" ] && return
+    program=$bin/$1
+    scene=scenes/$2.xml
+    made=$out/$3
+    shift 3
+    sheet="$sheet $made.exr"
+    [ "$made.exr" -nt "$scene" ] && [ "$made.exr" -nt "$program" ] && return
     echo "- ${made##*/}"
-    "$bin/render" "$scene" --size $size "$@" -o "$made.exr" --report "$made.json" >"$made.txt"
+    "$program" "$scene" --size $size "$@" -o "$made.exr" --report "$made.json" >"$made.txt"
 }
 
-pictures=
-for scene in scenes/*.xml; do
-    grep -q '<sensor' "$scene" || continue
-    name=${scene##*/}
-    name=${name%.xml}
-    picture "$scene" "$name.quick" --global-photons 20000 --caustic-photons 20000 -k 50 \
-        --gather 0 --spp 1
-    picture "$scene" "$name.good" --gather 32
-    pictures="$pictures $out/$name.quick.exr $out/$name.good.exr"
-done
+# lay NAME TITLE WHAT: all pictures since the last sheet on $out/NAME.png.
+lay() {
+    if [ ! -x "$bin/view" ]; then
+        echo "no sheet: VTK is missing; install libvtk9-dev. The pictures are $out/*.exr"
+        sheet=
+        return
+    fi
+    "$bin/view" contact $sheet -o "$out/$1.png" --title "$2"
+    echo "$3 is $out/$1.png"
+    sheet=
+}
 
-if [ ! -x "$bin/view" ]; then
-    echo "no sheet: VTK is missing; install libvtk9-dev. The pictures are $out/*.exr"
-    exit
-fi
-"$bin/view" contact $pictures -o $out/contact.png --title "Every scene, quick and good"
-echo "The sheet of all scenes is $out/contact.png"
+scenes() {
+    for file in scenes/*.xml; do
+        grep -q '<sensor' "$file" || continue
+        name=${file##*/}
+        name=${name%.xml}
+        picture render "$name" "$name.quick" --global-photons 20000 --caustic-photons 20000 \
+            --volume-photons 10000 -k 50 --gather 0 --spp 1
+        picture render "$name" "$name.good" --gather 32
+    done
+    lay contact "Every scene, quick and good" "The sheet of all scenes"
+}
+
+# One box: the same command five times, each with one thing more.
+build_up() {
+    bulb="-D radiance=0 -D bulb=0.513,0.363,0.222"
+    good="--gather 32 --spp 8"
+    picture render lecture one-box.1-hard-shadows $good $bulb --global-photons 0 \
+        --caustic-photons 0
+    picture render lecture one-box.2-and-soft-shadows $good --global-photons 0 \
+        --caustic-photons 0
+    picture render lecture one-box.3-and-caustics $good --global-photons 0
+    picture render lecture one-box.4-and-global-illumination $good
+    picture render lecture one-box.5-and-a-medium $good -D density=0.6
+}
+
+lecture() {
+    build_up
+    good="--gather 32"
+    picture render mesh-spheres directional-light.mesh-spheres $good
+    picture render square-over-floor square-light.square-over-floor $good
+    picture render lecture point-light.lecture $good -D radiance=0 -D bulb=0.513,0.363,0.222
+    picture render lights several-lights.lights $good
+    picture render cornell-diffuse Cornell-box.direct-light $good --only direct
+    picture render cornell-diffuse Cornell-box.indirect-light $good --only indirect
+    picture render cornell-diffuse Cornell-box.both $good
+    picture render sparse projection-map.off $good --projection off
+    picture render sparse projection-map.on $good
+    picture render cornell-glossy glossy-reflection.cornell-glossy $good
+    picture render ring metal-ring.ring $good
+    picture render water caustics.water $good
+    picture render sun shafts-of-light.sun $good
+    picture render glass-fog caustic-in-fog.glass-fog $good --volume-photons 1000000
+    picture render prism prism.prism $good --caustic-photons 2000000 -r 0.02
+    picture render cornell-fog a-medium.photons $good
+    picture reference cornell-fog a-medium.path-tracing --spp 64
+    lay lecture "The lecture's pictures" "The sheet of the lecture"
+}
+
+beside() {
+    scene=${SCENE:-cornell-fog}
+    picture render "$scene" "$scene.photons"
+    picture reference "$scene" "$scene.path-tracing" --spp 128
+    lay "beside-$scene" "Photons beside path tracing" "The sheet"
+}
+
+sheet=
+case ${ONLY:-} in
+'') scenes && lecture ;;
+scenes | lecture | beside) $ONLY ;;
+*)
+    echo "gallery: ONLY must be scenes, lecture or beside, got \"$ONLY\"" >&2
+    exit 2
+    ;;
+esac

@@ -26,6 +26,7 @@ LEAST = 40  # pixels that a region must have
 # Path tracing shows all of these scenes. Where the sun shines through water or on a mirror it
 # shows no caustic, so that light is traced to the camera instead: all paths whose first surface
 # from the camera is diffuse.
+# Names of scenes/, or whole paths.
 SCENES = {
     "cornell-diffuse": ("path", 512),
     "cornell-spheres": ("path", 2048),
@@ -39,6 +40,9 @@ SCENES = {
     "sparse": ("path", 2048),
     "ring": ("ptracer", 4096),
     "water": ("ptracer", 1024),
+    "cornell-fog": ("volpath", 512),
+    "sun": ("volpath", 512),
+    "tests/peers/nested.xml": ("volpath", 1024),
 }
 
 
@@ -52,6 +56,8 @@ def what_is_seen(mi, scene):
             at = mi.Point2f((x + 0.5) / fine, (y + 0.5) / fine)
             ray, _ = sensor.sample_ray(0, 0.5, at, mi.Point2f(0.5, 0.5))
             hit = scene.ray_intersect(ray)
+            while hit.is_valid() and mi.has_flag(hit.bsdf().flags(), mi.BSDFFlags.Null):
+                hit = scene.ray_intersect(hit.spawn_ray(ray.d))
             if not hit.is_valid():
                 continue
             row = letters[y // 8]
@@ -91,7 +97,7 @@ def measure(mi, variant, name):
     """All about one scene."""
     integrator, spp = SCENES[name]
     size = {"width": str(SIDE), "height": str(SIDE)}
-    path = f"scenes/{name}.xml"
+    path = name if name.endswith(".xml") else f"scenes/{name}.xml"
     mi.set_variant("scalar_rgb")
     letters = what_is_seen(mi, mi.load_file(path, **size))
     mi.set_variant(variant)
