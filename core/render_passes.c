@@ -8,7 +8,7 @@
 
 #include <inttypes.h>
 
-#define PAUSE 2.0  // [s] between two savings, at least
+#define PAUSE 1.0  // [s] between two savings, at least
 #define SHARE 20.0 // and this many times what saving takes
 
 /// When something was saved last, and what that took.

@@ -9,7 +9,7 @@
 /// Does passes until there are options->passes of them, or SIGINT; with --resume from where the
 /// checkpoint is. Checkpoint (--checkpoint) and pictures (-o, --png) are written whole, on the
 /// way and at the end, so that each is always that of some number of whole passes: on the way
-/// after a pass that ends 2 s or more after the last writing, and, so that writing takes a
+/// after a pass that ends 1 s or more after the last writing, and, so that writing takes a
 /// twentieth of the time at most, 20 times as long after it as writing took.
 ///
 /// @param progressive  [in, out] zero-initialised; free with pm_progressive_free() in any case
