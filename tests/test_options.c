@@ -22,6 +22,7 @@ static const pm_options_program render = {
     .options = "n photons global-photons caustic-photons k r shape filter kernel-constants "
                "flatness gather spp exposure packing max-bounces at normal size preset "
                "direct caustics precompute projection "
+               "media march-step progressive passes checkpoint resume "
                "only o map check report max-rel-mse",
     .needs = "o",
 };
@@ -199,7 +200,34 @@ static void unknown_options_name_the_nearest(void)
     refuse(&render, "s.xml -o o --filtre=cone", "the nearest known one is --filter");
     refuse(&render, "s.xml -o o -x", "unknown option -x");
     refuse(&storage, "s.xml --gather 5", "storage: unknown option --gather");
-    refuse(&render, "s.xml -o o --progressive", "unknown option --progressive");
+    refuse(&storage, "s.xml --progressive", "unknown option --progressive");
+}
+
+static void passes_belong_to_progressive_pictures(void)
+{
+    command c;
+    CHECK_OK(parse(&render, "s.xml -o o --media march --march-step 0.5", &c));
+    CHECK(c.options.media_march && !c.options.progressive && c.options.passes == 16);
+    CHECK(!c.options.gather_given && !c.options.spp_given);
+    CHECK_NEAR(c.options.march_step, 0.5, 0.0);
+    CHECK_OK(parse(&render,
+                   "s.xml -o o --progressive --passes 268435455 --checkpoint c --resume "
+                   "--gather 64 --spp 4 --preset lecture-10k -n 5",
+                   &c));
+    CHECK(c.options.progressive && c.options.passes == 268435455 && c.options.resume);
+    CHECK(strcmp(c.options.checkpoint, "c") == 0);
+    CHECK(c.options.gather_given && c.options.spp_given);
+    refuse(&render, "s.xml -o o --passes 3 --checkpoint c --resume",
+           "render: --passes belongs to --progressive, which is not given\n"
+           "render: --checkpoint belongs to --progressive, which is not given\n"
+           "render: --resume belongs to --progressive, which is not given");
+    refuse(&render, "s.xml -o o --progressive --passes 268435456", "from 1 to 268435455");
+    refuse(&render, "s.xml -o o --progressive --resume", "--resume needs --checkpoint FILE");
+    refuse(&render, "s.xml -o o --progressive --map m.ply", "--map cannot be given");
+    refuse(&render, "s.xml -o o --progressive --preset lecture-10k", "add -n N");
+    refuse(&render, "s.xml -o o --march-step 1", "--march-step belongs to --media march");
+    refuse(&render, "s.xml -o o --media march --march-step 0", "a number above 0");
+    refuse(&render, "s.xml -o o --media march --march-step nan", "a number above 0");
 }
 
 static void abbreviations_are_not_guessed(void)
@@ -357,4 +385,6 @@ PM_TESTS({"options.1", "without options the settings are those of the design",
           help_wins_over_faults_and_lists_all},
          {"options.15", "keys are unique and every group names options that exist",
           keys_are_unique_and_groups_exist},
-         {"options.16", "distances between words count single edits", edits_are_counted})
+         {"options.16", "distances between words count single edits", edits_are_counted},
+         {"options.17", "what belongs to progressive pictures or to a march is refused without",
+          passes_belong_to_progressive_pictures})

@@ -72,6 +72,30 @@ static void refuse_what_is_read(void)
     CHECK_FAILS(pm_outputs_check(&options, "demo"), PM_EINPUT, "-o");
 }
 
+static void a_checkpoint_is_begun_or_gone_on_with(void)
+{
+    pm_options options = good_options();
+    char path[512];
+    snprintf(path, sizeof path, "%s", pm_command_path("a.checkpoint"));
+    options.checkpoint = path;
+    CHECK_OK(pm_outputs_check(&options, "demo"));
+    options.resume = true;
+    CHECK_FAILS(pm_outputs_check(&options, "demo"), PM_EINPUT,
+                "is not there to resume from: leave out --resume to begin it");
+    pm_command_write("a.checkpoint", "sums");
+    CHECK_OK(pm_outputs_check(&options, "demo"));
+    options.resume = false;
+    CHECK_FAILS(pm_outputs_check(&options, "demo"), PM_EINPUT,
+                "is there already: --resume goes on from it, or name another");
+    options.resume = true;
+    options.output = path;
+    CHECK_FAILS(pm_outputs_check(&options, "demo"), PM_EINPUT,
+                "would overwrite what --checkpoint writes");
+    options.output = NULL;
+    options.checkpoint = "scenes/furnace.xml";
+    CHECK_FAILS(pm_outputs_check(&options, "demo"), PM_EINPUT, "would overwrite what is read");
+}
+
 // The picture would take hours: the refusal must come before it.
 static void refuse_before_the_work(void)
 {
@@ -90,4 +114,6 @@ PM_TESTS({"outputs.1", "what can be written is accepted, and nothing is left or 
          {"outputs.4", "an output that would overwrite an input is refused",
           refuse_what_is_read},
          {"outputs.5", "a picture of hours into a missing folder is refused at once",
-          refuse_before_the_work})
+          refuse_before_the_work},
+         {"outputs.6", "a checkpoint is begun where none is, and gone on with where one is",
+          a_checkpoint_is_begun_or_gone_on_with})
