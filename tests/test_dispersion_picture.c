@@ -33,7 +33,7 @@ static pm_render_settings settings_of(uint32_t rays)
     settings.light.rays = rays;
     // One radius for all: estimates by the k nearest see too much light where it is torn.
     settings.light.estimate.k = 2000;
-    settings.light.estimate.radius = 0.15;
+    settings.light.estimate.radius = 0.06;
     return settings;
 }
 
