@@ -57,29 +57,32 @@ static void agree(const pm_pictures_means *got, const pm_pictures_means *want)
 
 // --- what gets through ----------------------------------------------------------------------
 
-/// A lamp behind a cube of dark fog, askew, and what the ray through its middle has to pass.
+/// A lamp behind a cube of dark fog, askew, that holds a ball of fog twice as dark. Returns the
+/// length of fog that has the depth of what a ray through both their middles passes.
 static double dim_lamp_begin(pm_scenes *s, double sigma_t)
 {
     pm_scenes_begin(s);
     int fog = pm_scenes_medium(s, sigma_t, pm_gray(0.0), 0.0);
+    int dark = pm_scenes_medium(s, 2.0 * sigma_t, pm_gray(0.0), 0.0);
+    pm_scenes_bound(s, pm_shapes_sphere(pm_vec(0.0, 0.0, 0.0), 0.25), dark, fog);
     pm_frame turned = pm_frame_around(pm_vec(0.6, 0.0, 0.8));
     pm_scenes_bound(s, pm_shapes_cube(&turned, pm_vec(0.0, 0.0, 0.0), 0.5), fog, PM_NONE);
     int lamp = pm_scenes_wear(s, pm_scenes_square(2.0, -1.0, false), PM_NONE);
     pm_scenes_lamp(s, lamp, pm_rgb(1.0, 2.0, 3.0));
     pm_scenes_ready(s);
     pm_pictures_look(s, pm_vec(0.0, 0.0, 3.0), pm_vec(0.0, 0.0, 0.0), 1e-6, 32);
-    return 1.0 / 0.8; // of a cube of side 1, through its middle
+    return 1.0 / 0.8 + 0.5; // a cube of side 1, and a ball of width 0.5 once more
 }
 
 static void fog_dims_what_lies_behind(void)
 {
     for (double sigma_t = 0.5; sigma_t < 3.0; sigma_t += 1.0) {
         pm_scenes s;
-        double chord = dim_lamp_begin(&s, sigma_t);
+        double length = dim_lamp_begin(&s, sigma_t);
         pm_pictures_means got = pm_references_trace(&s, 16);
         for (int c = 0; c < 3; c++) {
             CHECK_CLOSE("emission", got.mean[PM_LAYER_EMISSION].c[c],
-                        (c + 1) * exp(-sigma_t * chord), got.variance[PM_LAYER_EMISSION].c[c],
+                        (c + 1) * exp(-sigma_t * length), got.variance[PM_LAYER_EMISSION].c[c],
                         0.0);
         }
         CHECK(pm_spectrum_is_black(got.mean[PM_LAYER_VOLUME]));
@@ -99,10 +102,10 @@ static void depth_and_mask_know_no_fog(void)
     CHECK(pm_pictures_mean(&image, "emission.R") == 0.0);
     pm_image_free(&image);
     s.lights[0].emitted = pm_gray(0.0);
-    s.shapes[1].light = PM_NONE;
+    s.shapes[2].light = PM_NONE;
     pm_scenes_sky(&s, pm_gray(1.0));
     pm_pictures_look(&s, pm_vec(0.0, 0.0, 0.0), pm_vec(1.0, 0.0, 0.0), 1e-6, 32);
-    s.scene.camera.medium = 0;
+    s.scene.camera.medium = 1;
     image = pm_references_take(&s, &settings, NULL);
     CHECK(pm_pictures_mean(&image, "mask.emitter") == 1.0);
     CHECK(pm_pictures_mean(&image, "depth.Z") == 0.0);
@@ -329,7 +332,7 @@ static void nested_fogs_agree_with_chance(void)
     pm_scenes_free(&s);
 }
 
-PM_TESTS({"reference_media.1", "dark fog dims a lamp behind it by exp(-depth)",
+PM_TESTS({"reference_media.1", "dark fog in dark fog dims a lamp behind both by exp(-depth)",
           fog_dims_what_lies_behind},
          {"reference_media.2", "depth, normal and mask are those of what lies behind fog",
           depth_and_mask_know_no_fog},
