@@ -194,7 +194,15 @@ pm_vec3 draw_mesh(pm_drawing *drawing, const pm_shape *s, const look &l)
     return pm_vec_scale(sum, s->vertex_count > 0 ? 1.0 / s->vertex_count : 0.0);
 }
 
-/// Draws a shape; returns where a word about it goes.
+/// Where a word about a shape goes: in its middle, but at a corner where it only bounds a
+/// medium, whose middle other things fill.
+pm_vec3 place_word(const pm_shape *shape, const look &l, pm_vec3 middle)
+{
+    bool hollow = l.opacity == 0.0 && shape->type == PM_SHAPE_MESH && shape->vertex_count > 0;
+    return hollow ? shape->vertices[0] : middle;
+}
+
+/// Draws a shape; returns its middle.
 pm_vec3 draw_shape(pm_drawing *drawing, const pm_shape *shape, const look &l, pm_vec3 eye)
 {
     switch (shape->type) {
@@ -223,7 +231,8 @@ pm_status pm_draw_scene(pm_figure *figure, const pm_scene *scene)
             pm_vec3 middle =
                 draw_shape(&drawing, &scene->shapes[i], l, figure->viewpoint.position);
             if (l.word != nullptr) {
-                PM_TRY(pm_figure_mark(figure, middle, l.word));
+                pm_vec3 place = place_word(&scene->shapes[i], l, middle);
+                PM_TRY(pm_figure_mark(figure, place, l.word));
             }
         }
         for (int i = 0; i < scene->light_count; i++) {
