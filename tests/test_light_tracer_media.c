@@ -33,9 +33,10 @@ static void ball_begin(pm_scenes *s, pm_light_type type)
     const double cone[2] = {0.3, 0.6};
     pm_scenes_begin(s);
     int fog = pm_scenes_medium(s, 1.5, pm_rgb(0.9, 0.6, 0.3), 0.4);
-    pm_scenes_wear(s, pm_scenes_square(3.0, 0.0, false), pm_scenes_diffuse(s, pm_gray(0.5)));
+    pm_scenes_wear(s, pm_scenes_square(3.0, 0.0, false), pm_scenes_diffuse(s, pm_gray(0.1)));
     pm_scenes_bound(s, pm_shapes_sphere(pm_vec(0.0, 0.0, 0.6), 0.5), fog, PM_NONE);
-    pm_scenes_wear(s, pm_shapes_sphere(pm_vec(0.0, 0.0, 0.6), 0.25), 0);
+    pm_scenes_wear(s, pm_shapes_sphere(pm_vec(0.0, 0.0, 0.6), 0.25),
+                   pm_scenes_diffuse(s, pm_gray(0.8)));
     if (type == PM_LIGHT_POINT) {
         pm_scenes_point(s, pm_vec(0.5, 0.2, 1.6), pm_gray(10.0));
     } else if (type == PM_LIGHT_SPOT) {
@@ -49,7 +50,7 @@ static void ball_begin(pm_scenes *s, pm_light_type type)
         pm_scenes_sky(s, pm_gray(1.0));
     }
     pm_scenes_ready(s);
-    pm_pictures_look(s, pm_vec(0.2, -1.6, 1.0), pm_vec(0.0, 0.0, 0.4), 0.6, 8);
+    pm_pictures_look(s, pm_vec(0.2, -1.6, 1.0), pm_vec(0.0, 0.0, 0.6), 0.35, 8);
 }
 
 static void fog_in_every_light_is_what_eyes_find(void)
