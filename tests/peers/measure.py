@@ -42,7 +42,7 @@ SCENES = {
     "water": ("ptracer", 1024),
     "cornell-fog": ("volpath", 512),
     "sun": ("volpath", 512),
-    "tests/peers/nested.xml": ("volpath", 1024),
+    "tests/peers/nested.xml": ("volpath", 256),
 }
 
 
