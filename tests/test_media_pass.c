@@ -209,6 +209,46 @@ static void threads_change_no_byte(void)
     pm_scenes_free(&s);
 }
 
+// --- scale
+
+/// The foggy room with all lengths times `factor` and extinction over it.
+static pm_photon_map scaled_map(double factor)
+{
+    pm_scenes s;
+    foggy_room(&s);
+    pm_intersector_free(&s.world);
+    for (int i = 0; i < s.scene.shape_count; i++) {
+        s.shapes[i] = pm_shapes_scaled(&s.shapes[i], factor);
+    }
+    s.lights[0].position = pm_vec_scale(s.lights[0].position, factor);
+    s.media[0].sigma_t /= factor;
+    pm_scenes_ready(&s);
+    pm_pass_settings settings = {.seed = 5, .count = 2000, .unpacked = true};
+    pm_photon_map map;
+    CHECK_OK(pm_photon_pass(&s.world, PM_MAP_VOLUME, &settings, &map, NULL));
+    pm_scenes_free(&s);
+    return map;
+}
+
+static void lengths_by_powers_of_two(void)
+{
+    static const int powers[3] = {-20, 7, 20};
+    pm_photon_map one = scaled_map(1.0);
+    for (int i = 0; i < 3; i++) {
+        float factor = (float)ldexp(1.0, powers[i]);
+        pm_photon_map map = scaled_map((double)factor);
+        CHECK(map.count == one.count && map.count > 0);
+        CHECK(memcmp(map.exact, one.exact, map.count * sizeof *map.exact) == 0);
+        for (uint32_t j = 0; j < map.count; j++) {
+            for (int axis = 0; axis < 3; axis++) {
+                CHECK(map.photons[j].position[axis] == factor * one.photons[j].position[axis]);
+            }
+        }
+        pm_photon_map_free(&map);
+    }
+    pm_photon_map_free(&one);
+}
+
 // --- aiming
 
 /// A small ball of fog, and a floor under it, below a point light outside.
@@ -312,6 +352,8 @@ PM_TESTS({"media_pass.1", "a volume map holds LV, LSSV and LVV, marked as such",
           books_close_through_glass_that_disperses},
          {"media_pass.5", "one, two and seven threads fill the same volume map",
           threads_change_no_byte},
+         {"media_pass.9", "lengths by a power of two, extinction by its inverse: the same bits",
+          lengths_by_powers_of_two},
          {"media_pass.6",
           "lights outside media are aimed at what bounds them, and lose nothing",
           fog_is_aimed_at_by_its_bounds},
