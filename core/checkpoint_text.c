@@ -117,7 +117,8 @@ static void put_picture(printer *p, const pm_render_settings *settings)
 size_t pm_checkpoint_text_print(const pm_scene *scene, const pm_render_settings *settings,
                                 char *text)
 {
-    printer p = {text, 0};
+    printer p = {0};
+    p.text = text;
     put(&p, "scene %016" PRIx64 "\n", scene->hash);
     put(&p, "camera %016" PRIx64 "\n", camera_hash(&scene->camera));
     put(&p, "size %dx%d\n", scene->camera.width, scene->camera.height);
