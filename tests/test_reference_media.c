@@ -76,7 +76,8 @@ static double dim_lamp_begin(pm_scenes *s, double sigma_t)
 
 static void fog_dims_what_lies_behind(void)
 {
-    for (double sigma_t = 0.5; sigma_t < 3.0; sigma_t += 1.0) {
+    for (int i = 0; i < 3; i++) {
+        double sigma_t = 0.5 + i;
         pm_scenes s;
         double length = dim_lamp_begin(&s, sigma_t);
         pm_pictures_means got = pm_references_trace(&s, 16);
@@ -184,9 +185,9 @@ static void check_layer(double g, bool above)
 
 static void single_scattering_in_a_layer_is_closed(void)
 {
-    for (double g = -0.6; g < 0.9; g += 0.6) {
-        check_layer(g, true);
-        check_layer(g, false);
+    for (int i = -1; i <= 1; i++) {
+        check_layer(0.6 * i, true);
+        check_layer(0.6 * i, false);
     }
 }
 
