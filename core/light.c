@@ -106,7 +106,7 @@ bool pm_light_place(const pm_scene *scene, const pm_light *light, const double u
     }
     *place = light->position;
     if (light->type == PM_LIGHT_AREA) {
-        pm_hit source;
+        pm_hit source = {.shape = light->shape};
         pm_shape_point(&scene->shapes[light->shape], u[0], u[1], &source);
         *place = source.position;
     }

@@ -344,6 +344,36 @@ static void what_is_no_lamp_has_no_density(void)
     pm_scenes_free(&s);
 }
 
+static void places_are_those_of_the_draws(void)
+{
+    lamp_case lamps[LAMPS];
+    make_lamps(lamps);
+    for (int l = 0; l < LAMPS; l++) {
+        pm_scenes s;
+        light_up(&lamps[l], &s);
+        for (uint64_t i = 0; i < 100; i++) {
+            pm_rng rng = pm_shapes_rng(i, 9);
+            double u[2];
+            u[0] = pm_rng_draw(&rng);
+            u[1] = pm_rng_draw(&rng);
+            pm_vec3 from = pm_vec(0.0, 0.0, 0.0);
+            pm_vec3 place;
+            pm_light_sample sample;
+            CHECK(pm_light_place(&s.scene, &s.lights[0], u, &place));
+            if (pm_light_sample_from(&s.scene, &s.lights[0], from, u, &sample)) {
+                pm_vec3 way = pm_vec_normalize(pm_vec_sub(place, from));
+                CHECK_NEAR(pm_vec_dot(way, sample.direction), 1.0, 1e-14);
+            }
+        }
+        pm_scenes_free(&s);
+    }
+    pm_vec3 place;
+    pm_light sun = {.type = PM_LIGHT_DIRECTIONAL};
+    pm_light sky = {.type = PM_LIGHT_CONSTANT};
+    CHECK(!pm_light_place(NULL, &sun, corner, &place));
+    CHECK(!pm_light_place(NULL, &sky, corner, &place));
+}
+
 PM_TESTS({"light.1", "a point light falls off by the square of the distance",
           points_fall_off_by_the_square},
          {"light.2", "a spot falls off with the angle as Mitsuba's does", falloff_is_mitsubas},
@@ -360,4 +390,6 @@ PM_TESTS({"light.1", "a point light falls off by the square of the distance",
          {"light.9", "the density over all directions is the share of the lamp that is seen",
           density_adds_up_to_what_faces},
          {"light.10", "what is no lamp shines not and is never drawn",
-          what_is_no_lamp_has_no_density})
+          what_is_no_lamp_has_no_density},
+         {"light.11", "the place of a draw lies where the draw points to",
+          places_are_those_of_the_draws})
