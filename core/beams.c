@@ -63,11 +63,46 @@ static bool begin(const pm_beams *beams, const pm_medium *medium, const pm_ray *
     return enter < leave;
 }
 
+/// Share of a disc's kernel that lies before a line at `y` radii from its middle: across the
+/// line the kernel adds up to 16 / (5 pi) (1 - y^2)^(5/2).
+static double share_before(double y)
+{
+    if (y >= 1.0) {
+        return 1.0;
+    }
+    double phi = asin(y);
+    double part = 5.0 / 16.0 * phi + 15.0 / 64.0 * sin(2.0 * phi) +
+                  3.0 / 64.0 * sin(4.0 * phi) + 1.0 / 192.0 * sin(6.0 * phi);
+    return 0.5 + 16.0 / (5.0 * PM_PI) * part;
+}
+
+/// How much of a photon's disc lies inside its medium; 0 if the place `across` from it, where
+/// the ray is, does not.
+static double share_inside(const walk *w, uint32_t index, const double across[3], double radius)
+{
+    const pm_rim *rim = &w->beams->rim[index];
+    double distance = (double)rim->distance;
+    double height = 0.0;
+    double cosine = 0.0;
+    if (distance >= radius) {
+        return 1.0;
+    }
+    for (int axis = 0; axis < 3; axis++) {
+        height += (double)rim->normal[axis] * across[axis];
+        cosine += (double)rim->normal[axis] * w->direction[axis];
+    }
+    if (height > distance) {
+        return 0.0;
+    }
+    double sine = sqrt(pm_most(0.0, (1.0 - cosine) * (1.0 + cosine)));
+    return distance < radius * sine ? share_before(distance / (radius * sine)) : 1.0;
+}
+
 /// The light of one photon that counts, at `t`; `u` is (d / r)^2.
-static void add(walk *w, uint32_t index, double t, double u, double radius)
+static void add(walk *w, uint32_t index, double t, double u, double radius, double share)
 {
     const pm_photon_exact *light = &w->beams->light[index];
-    double weight = (1.0 - u) * (1.0 - u) / (radius * radius);
+    double weight = (1.0 - u) * (1.0 - u) / (radius * radius * share);
     weight *= exp(-w->sigma_t * (t - w->start));
     if (w->medium->g != 0.0) {
         double cosine = 0.0;
@@ -87,21 +122,25 @@ static void add(walk *w, uint32_t index, double t, double u, double radius)
 static void ask_ball(walk *w, uint32_t leaf, int place)
 {
     const pm_beam_leaf *balls = &w->beams->leaf[leaf];
-    double away[3];
+    double across[3]; // from the ball to the ray
     double t = 0.0;
     double distance2 = 0.0;
     for (int axis = 0; axis < 3; axis++) {
-        away[axis] = (double)balls->at[axis][place] - w->origin[axis];
-        t += away[axis] * w->direction[axis];
+        across[axis] = w->origin[axis] - (double)balls->at[axis][place];
+        t -= across[axis] * w->direction[axis];
     }
     for (int axis = 0; axis < 3; axis++) {
-        double across = away[axis] - t * w->direction[axis];
-        distance2 += across * across;
+        across[axis] += t * w->direction[axis];
+        distance2 += across[axis] * across[axis];
     }
     double radius = (double)balls->radius[place];
-    if (distance2 < radius * radius && t > w->start && t < w->end) {
-        uint32_t index = leaf * PM_BEAMS_LEAF + (uint32_t)place;
-        add(w, index, t, distance2 / (radius * radius), radius);
+    if (!(distance2 < radius * radius && t > w->start && t < w->end)) {
+        return;
+    }
+    uint32_t index = leaf * PM_BEAMS_LEAF + (uint32_t)place;
+    double share = share_inside(w, index, across, radius);
+    if (share > 0.0) {
+        add(w, index, t, distance2 / (radius * radius), radius, share);
     }
 }
 

@@ -6,15 +6,16 @@
 // whose integral over the disc is 1. So each photon hands out all its power whatever its radius
 // is, and an even field comes out right on average without a correction for k.
 //
-// Where a medium ends, balls reach over, and the march's (media.h) do as well: inside, a rim as
-// wide as a radius is too dark, for no photons lie beyond; where two media touch, each rim has
-// photons of the other, for a photon does not know its medium. Both fade with the radius.
+// Where a medium ends, a ball reaches over. There a ray sees the part of the disc that lies
+// before the plane of the end, all the more of it (rim.h): no dark rim along flat walls,
+// no light through them, and two media that touch do not see each other's photons.
 // @source Jarosz, Zwicker and Jensen, "The Beam Radiance Estimate for Volumetric Photon
 // Mapping", CGF 27(2), 2008
 #ifndef PM_BEAMS_H
 #define PM_BEAMS_H
 
 #include "estimate.h"
+#include "rim.h"
 
 enum {
     PM_BEAMS_LEAF = 8, // balls in a leaf
@@ -50,11 +51,13 @@ typedef struct {
     pm_beam_node *node;
     pm_beam_leaf *leaf;
     pm_photon_exact *light; // photon 8j + i of leaf j: unscaled power, direction
+    pm_rim *rim;            // and where its medium ends; in the beams' unit
 } pm_beams;
 
 /// Makes beams of the photons of `map`, which may be freed then. Radii are found on all
 /// threads.
 ///
+/// @param world   in which media end; NULL: they go on for ever
 /// @param radius  [m] > 0 of every photon; INFINITY: each its own, the distance of its
 ///                round(sqrt(k))-th neighbour. Fewer than k + 1 photons count as if k were all
 ///                the others; one alone has no neighbour and does not count. Never below the
@@ -63,8 +66,8 @@ typedef struct {
 /// @param out     [out] untouched unless PM_OK; free with pm_beams_free()
 /// @return PM_EINPUT when the map is not a balanced and scaled volume map, the radius not > 0
 ///         as a float, or k is 0; PM_ENOMEM; PM_ESTOPPED on SIGINT
-pm_status pm_beams_make(const pm_photon_map *map, double radius, uint32_t k, uint16_t skip,
-                        pm_beams *out);
+pm_status pm_beams_make(const pm_intersector *world, const pm_photon_map *map, double radius,
+                        uint32_t k, uint16_t skip, pm_beams *out);
 void pm_beams_free(pm_beams *beams);
 
 /// What one query found.

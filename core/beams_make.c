@@ -1,5 +1,6 @@
 // Beams are made in three steps: photons that count are copied and sorted into leaves, compact
-// groups of eight; each gets its radius; boxes are put around leaves, and around boxes.
+// groups of eight; each gets its radius, and what
+// it sees of the medium's end; boxes are put around leaves, and around boxes.
 //
 // Invariant: a box holds all balls below it and the slack around them.
 // @source Jarosz, Zwicker and Jensen, CGF 27(2), 2008, for radii by neighbours of the photons
@@ -16,6 +17,7 @@
 #define LEAST 0x1p-100f // radius in the beams' unit: its square is far from underflow
 
 typedef struct {
+    const pm_intersector *world;
     const pm_photon_map *map;
     double radius;      // for all; INFINITY: by neighbours
     uint32_t neighbour; // which neighbour sets a photon's
@@ -98,26 +100,37 @@ static double least_radius(pm_vec3 at)
 }
 
 /// Asks for one more than the neighbour: a photon finds itself first.
-static pm_status find_radius(const void *context, void *scratch, int x, int y)
+static pm_status radius_by_neighbours(const making *make, pm_vec3 at, pm_neighbour *nearest,
+                                      double *radius)
+{
+    pm_search search = {
+        .at = at,
+        .k = make->neighbour + 1,
+        .radius2 = HUGE_VAL,
+        .accept = is_kept,
+        .context = make,
+    };
+    uint32_t found;
+    PM_TRY(pm_balance_nearest(make->map, &search, nearest, &found, NULL));
+    *radius = pm_least(pm_most(sqrt(nearest[0].distance2), least_radius(at)), (double)FLT_MAX);
+    return PM_OK;
+}
+
+static pm_status make_ball(const void *context, void *scratch, int x, int y)
 {
     const making *make = context;
     uint32_t index = (uint32_t)y * COLUMNS + (uint32_t)x;
     if (index >= make->beams.count) {
         return PM_OK;
     }
-    const float *at = make->photons[index].position;
-    pm_search search = {
-        .at = pm_vec((double)at[0], (double)at[1], (double)at[2]),
-        .k = make->neighbour + 1,
-        .radius2 = HUGE_VAL,
-        .accept = is_kept,
-        .context = make,
-    };
-    pm_neighbour *nearest = scratch;
-    uint32_t found;
-    PM_TRY(pm_balance_nearest(make->map, &search, nearest, &found, NULL));
-    double radius = pm_most(sqrt(nearest[0].distance2), least_radius(search.at));
-    make->found[index] = (float)pm_least(radius, (double)FLT_MAX);
+    const float *place = make->photons[index].position;
+    pm_vec3 at = pm_vec((double)place[0], (double)place[1], (double)place[2]);
+    double radius = make->radius;
+    if (isinf(radius)) {
+        PM_TRY(radius_by_neighbours(make, at, scratch, &radius));
+    }
+    make->found[index] = (float)radius;
+    make->beams.rim[index] = pm_rim_find(make->world, at, radius);
     return PM_OK;
 }
 
@@ -136,21 +149,15 @@ static void scratch_end(void *context, void *scratch)
     free(scratch);
 }
 
-static pm_status find_radii(making *make)
+static pm_status make_balls(making *make)
 {
-    if (isfinite(make->radius)) {
-        for (uint32_t i = 0; i < make->beams.count; i++) {
-            make->found[i] = (float)make->radius;
-        }
-        return PM_OK;
-    }
     pm_tiles tiles = {
         .what = "beams",
         .width = COLUMNS,
         .height = (int)(((uint64_t)make->beams.count + COLUMNS - 1) / COLUMNS),
         .context = make,
         .begin = scratch_begin,
-        .pixel = find_radius,
+        .pixel = make_ball,
         .end = scratch_end,
     };
     return pm_tiles_run(&tiles);
@@ -183,6 +190,8 @@ static void fill_leaves(making *make)
             leaf->at[axis][place] = (float)(at * per_metre);
         }
         leaf->radius[place] = fmaxf((float)((double)make->found[i] * per_metre), LEAST);
+        pm_rim *rim = &make->beams.rim[i];
+        rim->distance = (float)((double)rim->distance * per_metre);
     }
 }
 
@@ -297,10 +306,11 @@ static pm_status reserve(making *make)
     beams->leaf = calloc(leaves, sizeof *beams->leaf);
     beams->node = calloc(beams->first[beams->levels], sizeof *beams->node);
     beams->light = calloc(room, sizeof *beams->light);
+    beams->rim = calloc(room, sizeof *beams->rim);
     make->photons = calloc(room, sizeof *make->photons);
     make->found = calloc(room, sizeof *make->found);
     bool all = beams->leaf != NULL && beams->node != NULL && beams->light != NULL &&
-               make->photons != NULL && make->found != NULL;
+               beams->rim != NULL && make->photons != NULL && make->found != NULL;
     return all ? PM_OK
                : PM_FAIL(PM_ENOMEM, "no memory for the beams of %u photons", beams->count);
 }
@@ -311,18 +321,19 @@ static pm_status build(making *make)
     copy_photons(make);
     pm_photon_run run = {make->photons, make->beams.light};
     arrange(&run, 0, make->beams.count);
-    PM_TRY(find_radii(make));
+    PM_TRY(make_balls(make));
     make->beams.unit = unit_of(make);
     fill_leaves(make);
     make_boxes(&make->beams);
     return PM_OK;
 }
 
-pm_status pm_beams_make(const pm_photon_map *map, double radius, uint32_t k, uint16_t skip,
-                        pm_beams *out)
+pm_status pm_beams_make(const pm_intersector *world, const pm_photon_map *map, double radius,
+                        uint32_t k, uint16_t skip, pm_beams *out)
 {
     PM_TRY(check(map, radius, k));
-    making make = {.map = map, .radius = radius, .skip = skip, .beams.scale = map->scale};
+    making make = {
+        .world = world, .map = map, .radius = radius, .skip = skip, .beams.scale = map->scale};
     count_photons(&make, k);
     pm_status status = build(&make);
     free(make.photons);
@@ -340,5 +351,6 @@ void pm_beams_free(pm_beams *beams)
     free(beams->node);
     free(beams->leaf);
     free(beams->light);
+    free(beams->rim);
     *beams = (pm_beams){0};
 }

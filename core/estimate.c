@@ -284,22 +284,55 @@ static pm_spectrum scattered(const void *context, const pm_photon_view *photon)
     return pm_spectrum_scale(to->medium->albedo, phase);
 }
 
-pm_status pm_estimate_volume(const pm_photon_map *map, const pm_estimate_settings *settings,
-                             pm_vec3 at, const pm_medium *medium, pm_vec3 wo,
+/// Who counts in a ball. Has no normal: in a medium no side is the wrong one.
+typedef struct {
+    pm_vec3 at;
+    const pm_rim *rim;
+    uint16_t skip, only;
+} ball_query;
+
+/// In the manner of pm_estimate_accept().
+static bool is_inside(const void *context, const pm_photon *photon, double *distance2)
+{
+    const ball_query *query = context;
+    (void)distance2; // Euclidean, as it comes
+    if ((photon->flags & query->skip) != 0 || (photon->flags & query->only) != query->only) {
+        return false;
+    }
+    pm_vec3 place = pm_vec((double)photon->position[0], (double)photon->position[1],
+                           (double)photon->position[2]);
+    return pm_rim_is_before(query->rim, pm_vec_sub(place, query->at));
+}
+
+/// Volume of a ball before a plane that passes its middle at `distance`.
+static double volume_before(double radius, double distance)
+{
+    double y = pm_least(distance / radius, 1.0);
+    return PM_PI / 3.0 * radius * radius * radius * (2.0 + 3.0 * y - y * y * y);
+}
+
+pm_status pm_estimate_beside(const pm_photon_map *map, const pm_estimate_settings *settings,
+                             pm_vec3 at, const pm_rim *rim, const pm_medium *medium, pm_vec3 wo,
                              pm_neighbour *scratch, pm_estimate *out)
 {
     PM_TRY(check(map, settings));
     pm_estimate_settings constant = *settings;
     constant.filter = PM_FILTER_NONE; // kernels are made for discs
     scattering to = {medium, wo};
-    pm_estimate_query query = {
-        {.at = at}, PM_GATHER_SPHERE, 1.0, settings->skip, settings->only};
-    pm_search what = {.at = at, .accept = pm_estimate_accept, .context = &query};
+    ball_query query = {at, rim, settings->skip, settings->only};
+    pm_search what = {.at = at, .accept = is_inside, .context = &query};
     extent ball;
     pm_spectrum sum;
     PM_TRY(search(map, &constant, what, scratch, &ball));
     PM_TRY(sum_weighed(map, &constant, scratch, &ball, medium != NULL ? scattered : NULL, &to,
                        &sum));
-    *out = make_estimate(&ball, sum, 4.0 / 3.0 * PM_PI * ball.radius2 * sqrt(ball.radius2));
+    *out = make_estimate(&ball, sum, volume_before(sqrt(ball.radius2), (double)rim->distance));
     return PM_OK;
+}
+
+pm_status pm_estimate_volume(const pm_photon_map *map, const pm_estimate_settings *settings,
+                             pm_vec3 at, const pm_medium *medium, pm_vec3 wo,
+                             pm_neighbour *scratch, pm_estimate *out)
+{
+    return pm_estimate_beside(map, settings, at, &pm_rim_none, medium, wo, scratch, out);
 }

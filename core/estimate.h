@@ -12,6 +12,7 @@
 #include "balance.h"
 #include "filter.h"
 #include "material.h"
+#include "rim.h"
 
 typedef enum {
     PM_GATHER_DISC, // flattened along the normal
@@ -83,6 +84,12 @@ pm_status pm_estimate_radiance(const pm_photon_map *map, const pm_estimate_setti
 /// settings are those of surfaces: here a plain ball with a constant kernel always gathers.
 pm_status pm_estimate_volume(const pm_photon_map *map, const pm_estimate_settings *settings,
                              pm_vec3 at, const pm_medium *medium, pm_vec3 wo,
+                             pm_neighbour *scratch, pm_estimate *out);
+
+/// The same where the medium ends beside `at`: of the ball only the part before `rim` [m]
+/// counts, its photons and its volume.
+pm_status pm_estimate_beside(const pm_photon_map *map, const pm_estimate_settings *settings,
+                             pm_vec3 at, const pm_rim *rim, const pm_medium *medium, pm_vec3 wo,
                              pm_neighbour *scratch, pm_estimate *out);
 
 #endif

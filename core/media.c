@@ -69,9 +69,10 @@ pm_status pm_media_march(const pm_march *march, const pm_medium *medium, const p
     for (uint32_t i = 0; i < steps; i++) {
         double t = part.from + (i + pm_rng_draw(rng)) * step;
         pm_vec3 at = pm_vec_along(along->origin, along->direction, t);
+        pm_rim rim = pm_rim_find(march->world, at, march->estimate.radius);
         pm_estimate scattered;
-        PM_TRY(pm_estimate_volume(march->map, &march->estimate, at, medium, wo, march->scratch,
-                                  &scattered));
+        PM_TRY(pm_estimate_beside(march->map, &march->estimate, at, &rim, medium, wo,
+                                  march->scratch, &scattered));
         double weight = pm_medium_transmittance(medium, t) * step;
         sum = pm_spectrum_add(sum, pm_spectrum_scale(scattered.value, weight));
     }
@@ -97,6 +98,7 @@ static const pm_medium *medium_of(const pm_gather *gather, const pm_ray *along)
 static pm_march march_of(const pm_gather *gather, const pm_medium *medium)
 {
     pm_march march = {
+        .world = gather->compose->world,
         .map = gather->map[PM_MAP_VOLUME],
         .low = gather->low,
         .high = gather->high,

@@ -3,8 +3,8 @@
 // each other: a beam (beams.h), or a march of balls.
 //
 // Invariant: photons that come straight from a light are skipped in the map, since single
-// scattering is sampled; so each path counts once. Where a medium ends both queries have the
-// same rim (beams.h).
+// scattering is sampled; so each path counts once. Where a medium ends both queries count what
+// is on this side alone (rim.h).
 #ifndef PM_MEDIA_H
 #define PM_MEDIA_H
 
@@ -22,8 +22,9 @@ pm_status pm_media_gathered(pm_gather *gather, const pm_stretch *along, pm_rng *
 
 /// A ray march and what it asks.
 typedef struct {
-    const pm_photon_map *map; // volume map; balanced and scaled
-    pm_vec3 low, high;        // box around its photons
+    const pm_intersector *world; // in which media end; NULL: they go on for ever
+    const pm_photon_map *map;    // volume map; balanced and scaled
+    pm_vec3 low, high;           // box around its photons
     pm_estimate_settings estimate;
     double step;           // [m] > 0
     pm_neighbour *scratch; // room for estimate.k

@@ -83,7 +83,8 @@ static pm_status make_irradiance(const pm_intersector *world,
 }
 
 /// The reach that all lookups of the volume map share, if there is one; else by neighbours.
-static pm_status make_beams(const pm_render_settings *settings, pm_render_maps *maps)
+static pm_status make_beams(const pm_intersector *world, const pm_render_settings *settings,
+                            pm_render_maps *maps)
 {
     if (!maps->has[PM_MAP_VOLUME] || settings->light.media != PM_MEDIA_BEAMS ||
         settings->view_photons) {
@@ -93,7 +94,7 @@ static pm_status make_beams(const pm_render_settings *settings, pm_render_maps *
     const pm_photon_map *volume = &maps->map[PM_MAP_VOLUME];
     pm_estimate_settings asked =
         pm_lookup_settings(&settings->light.estimate, settings->reach[PM_MAP_VOLUME], volume);
-    PM_TRY(pm_beams_make(volume, asked.radius, asked.k, PM_PHOTON_FIRST, &maps->beams));
+    PM_TRY(pm_beams_make(world, volume, asked.radius, asked.k, PM_PHOTON_FIRST, &maps->beams));
     maps->beams_seconds = pm_seconds_now() - start;
     return PM_OK;
 }
@@ -120,7 +121,7 @@ pm_status pm_render_ready_maps(const pm_intersector *world, const pm_render_sett
                                pm_render_maps *maps)
 {
     PM_TRY(make_shadows(world, settings, maps));
-    PM_TRY(make_beams(settings, maps));
+    PM_TRY(make_beams(world, settings, maps));
     return make_irradiance(world, settings, maps);
 }
 

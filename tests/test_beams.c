@@ -39,7 +39,7 @@ static void the_kernel_integrates_to_one(void)
     pm_medium clear = {.sigma_t = 0.0, .albedo = pm_gray(1.0)};
     for (int i = 0; i < 3; i++) {
         pm_beams beams;
-        CHECK_OK(pm_beams_make(&map, radii[i], 1, 0, &beams));
+        CHECK_OK(pm_beams_make(NULL, &map, radii[i], 1, 0, &beams));
         double r = (double)(float)radii[i];
         double sum = 0.0;
         for (int s = 0; s < steps; s++) {
@@ -62,7 +62,7 @@ static void one_photon_by_hand(void)
     const pm_medium milk = {.sigma_t = 0.75, .albedo = {{0.9, 0.5, 0.25}}, .g = 0.6};
     pm_photon_map map = one_photon();
     pm_beams beams;
-    CHECK_OK(pm_beams_make(&map, 0.5, 1, 0, &beams));
+    CHECK_OK(pm_beams_make(NULL, &map, 0.5, 1, 0, &beams));
     double cosine = 0.5;
     pm_vec3 direction = pm_vec(sqrt(0.75), 0.0, cosine);
     pm_vec3 from = pm_vec(-2.0 * direction.x, 0.25, -2.0 * direction.z);
@@ -90,7 +90,7 @@ static void only_what_lies_between_the_ends_counts(void)
     }
     pm_fields_finish(&map);
     pm_beams beams;
-    CHECK_OK(pm_beams_make(&map, 0.25, 1, 0, &beams));
+    CHECK_OK(pm_beams_make(NULL, &map, 0.25, 1, 0, &beams));
     pm_ray ray = ray_along(pm_vec(0.0, 0.0, 0.0), pm_vec(1.0, 0.0, 0.0), 2.0);
     CHECK(pm_beams_query(&beams, &fog, &ray).found == 3);
     ray.t_max = HUGE_VAL;
@@ -227,7 +227,7 @@ static void check_cloud(pm_cloud_kind kind, uint32_t count, double radius, uint3
     double *radii = calloc((size_t)count + 1, sizeof *radii);
     radii_of(&map, radius, k, radii);
     pm_beams beams;
-    CHECK_OK(pm_beams_make(&map, radius, k, PM_PHOTON_FIRST, &beams));
+    CHECK_OK(pm_beams_make(NULL, &map, radius, k, PM_PHOTON_FIRST, &beams));
     for (uint64_t i = 0; i < rays; i++) {
         pm_ray ray = some_ray(i);
         pm_beam got = pm_beams_query(&beams, &medium, &ray);
@@ -276,11 +276,11 @@ static void few_photons_are_no_accident(void)
     pm_photon_map map = {.kind = PM_MAP_VOLUME};
     pm_beams beams;
     pm_ray ray = ray_along(pm_vec(0.0, 0.0, -1.0), pm_vec(0.0, 0.0, 1.0), HUGE_VAL);
-    CHECK_OK(pm_beams_make(&map, HUGE_VAL, 100, 0, &beams));
+    CHECK_OK(pm_beams_make(NULL, &map, HUGE_VAL, 100, 0, &beams));
     CHECK(pm_beams_query(&beams, &fog, &ray).found == 0);
     pm_beams_free(&beams);
     map = one_photon();
-    CHECK_OK(pm_beams_make(&map, HUGE_VAL, 100, 0, &beams));
+    CHECK_OK(pm_beams_make(NULL, &map, HUGE_VAL, 100, 0, &beams));
     pm_beam alone = pm_beams_query(&beams, &fog, &ray);
     CHECK(alone.found == 0 && alone.radiance.c[0] == 0.0 && alone.radius == 0.0);
     pm_beams_free(&beams);
@@ -299,7 +299,7 @@ static void coincident_photons_stay_finite(void)
         pm_fields_push(&map, pm_vec(0.0, 2.0, 0.0), pm_vec(0.0, 0.0, 0.0), 1.0);
         pm_fields_finish(&map);
         pm_beams beams;
-        CHECK_OK(pm_beams_make(&map, HUGE_VAL, 9, 0, &beams));
+        CHECK_OK(pm_beams_make(NULL, &map, HUGE_VAL, 9, 0, &beams));
         double x = (double)(float)places[i];
         pm_ray ray = ray_along(pm_vec(-1.0, 0.0, x), pm_vec(1.0, 0.0, 0.0), 3.0);
         pm_beam beam = pm_beams_query(&beams, &fog, &ray);
@@ -325,7 +325,7 @@ static pm_beam ask_scaled(double f)
     ray.origin = pm_vec_scale(ray.origin, f);
     ray.t_max *= f;
     pm_beams beams;
-    CHECK_OK(pm_beams_make(&map, HUGE_VAL, 100, 0, &beams));
+    CHECK_OK(pm_beams_make(NULL, &map, HUGE_VAL, 100, 0, &beams));
     pm_beam beam = pm_beams_query(&beams, &medium, &ray);
     pm_beams_free(&beams);
     pm_photon_map_free(&map);
@@ -352,9 +352,9 @@ static void threads_make_no_difference(void)
     pm_beams one;
     pm_beams three;
     omp_set_num_threads(1);
-    CHECK_OK(pm_beams_make(&map, HUGE_VAL, 100, PM_PHOTON_FIRST, &one));
+    CHECK_OK(pm_beams_make(NULL, &map, HUGE_VAL, 100, PM_PHOTON_FIRST, &one));
     omp_set_num_threads(3);
-    CHECK_OK(pm_beams_make(&map, HUGE_VAL, 100, PM_PHOTON_FIRST, &three));
+    CHECK_OK(pm_beams_make(NULL, &map, HUGE_VAL, 100, PM_PHOTON_FIRST, &three));
     CHECK(one.count == 2000 && three.count == 2000);
     CHECK(memcmp(one.leaf, three.leaf, 250 * sizeof *one.leaf) == 0);
     CHECK(memcmp(one.node, three.node, one.first[one.levels] * sizeof *one.node) == 0);
@@ -382,7 +382,7 @@ static pm_moments ask_even(double radius, uint32_t k, int trials)
         }
         pm_fields_finish(&map);
         pm_beams beams;
-        CHECK_OK(pm_beams_make(&map, radius, k, 0, &beams));
+        CHECK_OK(pm_beams_make(NULL, &map, radius, k, 0, &beams));
         double value = pm_beams_query(&beams, &fog, &ray).radiance.c[0];
         sum += value;
         sum2 += value * value;
@@ -420,18 +420,18 @@ static void wrong_maps_and_radii_are_refused(void)
 {
     pm_photon_map map = one_photon();
     pm_beams beams = {0};
-    CHECK_FAILS(pm_beams_make(&map, 0.0, 1, 0, &beams), PM_EINPUT,
+    CHECK_FAILS(pm_beams_make(NULL, &map, 0.0, 1, 0, &beams), PM_EINPUT,
                 "a beam's radius must be > 0 as a float, got 0");
-    CHECK_FAILS(pm_beams_make(&map, NAN, 1, 0, &beams), PM_EINPUT, "got nan");
-    CHECK_FAILS(pm_beams_make(&map, 1e-60, 1, 0, &beams), PM_EINPUT, "got 1e-60");
-    CHECK_FAILS(pm_beams_make(&map, HUGE_VAL, 0, 0, &beams), PM_EINPUT,
+    CHECK_FAILS(pm_beams_make(NULL, &map, NAN, 1, 0, &beams), PM_EINPUT, "got nan");
+    CHECK_FAILS(pm_beams_make(NULL, &map, 1e-60, 1, 0, &beams), PM_EINPUT, "got 1e-60");
+    CHECK_FAILS(pm_beams_make(NULL, &map, HUGE_VAL, 0, 0, &beams), PM_EINPUT,
                 "k must be at least 1, got 0");
     map.kind = PM_MAP_GLOBAL;
-    CHECK_FAILS(pm_beams_make(&map, 1.0, 1, 0, &beams), PM_EINPUT,
+    CHECK_FAILS(pm_beams_make(NULL, &map, 1.0, 1, 0, &beams), PM_EINPUT,
                 "beams are made from a volume map");
     map.kind = PM_MAP_VOLUME;
     map.balanced = false;
-    CHECK_FAILS(pm_beams_make(&map, 1.0, 1, 0, &beams), PM_EINPUT,
+    CHECK_FAILS(pm_beams_make(NULL, &map, 1.0, 1, 0, &beams), PM_EINPUT,
                 "must be balanced and scaled");
     CHECK(beams.node == NULL && beams.levels == 0);
     pm_photon_map_free(&map);
