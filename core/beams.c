@@ -63,39 +63,35 @@ static bool begin(const pm_beams *beams, const pm_medium *medium, const pm_ray *
     return enter < leave;
 }
 
-/// Share of a disc's kernel that lies before a line at `y` radii from its middle: across the
-/// line the kernel adds up to 16 / (5 pi) (1 - y^2)^(5/2).
+/// Share of a disc's kernel that lies before a line at `y` < 1 radii from its middle: across
+/// the line the kernel adds up to 16 / (5 pi) (1 - y^2)^(5/2).
 static double share_before(double y)
 {
-    if (y >= 1.0) {
-        return 1.0;
-    }
     double phi = asin(y);
     double part = 5.0 / 16.0 * phi + 15.0 / 64.0 * sin(2.0 * phi) +
                   3.0 / 64.0 * sin(4.0 * phi) + 1.0 / 192.0 * sin(6.0 * phi);
     return 0.5 + 16.0 / (5.0 * PM_PI) * part;
 }
 
-/// How much of a photon's disc lies inside its medium; 0 if the place `across` from it, where
-/// the ray is, does not.
+/// Share of a disc about the ray that lies inside the medium, where it ends beside a photon;
+/// `across` leads from there to the ray. 0 where the ray itself lies beyond the end.
 static double share_inside(const walk *w, uint32_t index, const double across[3], double radius)
 {
     const pm_rim *rim = &w->beams->rim[index];
-    double distance = (double)rim->distance;
-    double height = 0.0;
+    double left = (double)rim->distance;
     double cosine = 0.0;
-    if (distance >= radius) {
+    if (isinf(left)) {
         return 1.0;
     }
     for (int axis = 0; axis < 3; axis++) {
-        height += (double)rim->normal[axis] * across[axis];
+        left -= (double)rim->normal[axis] * across[axis];
         cosine += (double)rim->normal[axis] * w->direction[axis];
     }
-    if (height > distance) {
+    if (left < 0.0) {
         return 0.0;
     }
     double sine = sqrt(pm_most(0.0, (1.0 - cosine) * (1.0 + cosine)));
-    return distance < radius * sine ? share_before(distance / (radius * sine)) : 1.0;
+    return left < radius * sine ? share_before(left / (radius * sine)) : 1.0;
 }
 
 /// The light of one photon that counts, at `t`; `u` is (d / r)^2.

@@ -3,12 +3,12 @@
 //
 // Invariant: photons count whose nearest point of the ray lies between its two ends, and whose
 // distance d from it is below their radius r: with the kernel (3 / pi) (1 - d^2/r^2)^2 / r^2,
-// whose integral over the disc is 1. So each photon hands out all its power whatever its radius
-// is, and an even field comes out right on average without a correction for k.
+// whose integral over the disc is 1. So an even field comes out right on average for any
+// radii, without a correction for k.
 //
-// Where a medium ends, a ball reaches over. There a ray sees the part of the disc that lies
-// before the plane of the end, all the more of it (rim.h): no dark rim along flat walls,
-// no light through them, and two media that touch do not see each other's photons.
+// Where a medium ends, a disc reaches over. Photons beyond the end do not count, and the others
+// count the more, by the share of the disc that lies before it (rim.h): flat walls have no dark
+// rim.
 // @source Jarosz, Zwicker and Jensen, "The Beam Radiance Estimate for Volumetric Photon
 // Mapping", CGF 27(2), 2008
 #ifndef PM_BEAMS_H

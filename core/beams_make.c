@@ -130,7 +130,8 @@ static pm_status make_ball(const void *context, void *scratch, int x, int y)
         PM_TRY(radius_by_neighbours(make, at, scratch, &radius));
     }
     make->found[index] = (float)radius;
-    make->beams.rim[index] = pm_rim_find(make->world, at, radius);
+    // A ray a radius away may see an end another radius beyond it.
+    make->beams.rim[index] = pm_rim_find(make->world, at, 2.0 * radius);
     return PM_OK;
 }
 
