@@ -131,7 +131,9 @@ static json_int_t stop_in_the_middle(const place *at, int threads, const char *s
     double seconds = 0.1;
     for (int i = 0; i < TRIES; i++) {
         pm_test_ran ran = go_on(at, 100000000, threads, signal, seconds);
-        CHECK_THAT(ran.exit_code == 130, "exit code %d: %s", ran.exit_code, ran.err);
+        bool asleep = ran.err[0] == '\0'; // the signal came before main()
+        CHECK_THAT(asleep || ran.exit_code == 130, "exit code %d: %s", ran.exit_code, ran.err);
+        CHECK(ran.exit_code > 128);
         char words[100] = "nothing was written";
         if (is_there(at->report)) {
             json_int_t passes = passes_in(at);
@@ -139,7 +141,7 @@ static json_int_t stop_in_the_middle(const place *at, int threads, const char *s
                      "stopped after %lld of 100000000 passes: the picture is of %s %lld",
                      (long long)passes, passes == 1 ? "this" : "these", (long long)passes);
         }
-        CHECK_CONTAINS(ran.err, words);
+        CHECK_CONTAINS(ran.err, asleep ? "" : words);
         pm_test_ran_free(&ran);
         if (is_there(at->report) && passes_in(at) > before) {
             return passes_in(at);
@@ -243,6 +245,8 @@ static void the_report_tells_of_the_passes(void)
 
 static json_int_t peak_of(const char *passes)
 {
+    // Where addresses are watched, memory is not kept back from its next use.
+    setenv("ASAN_OPTIONS", "quarantine_size_mb=0:thread_local_quarantine_size_kb=0", 1);
     char line[300];
     snprintf(line, sizeof line,
              "render {S} --size 8x8 -n 5000 --packing off --only indirect --progressive "

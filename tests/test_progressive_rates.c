@@ -17,7 +17,7 @@ enum { SIDE = 20, PIXELS = SIDE * SIDE, STEPS = 5, SEEDS = 16, GRID = 40 };
 
 static const uint32_t steps[STEPS] = {8, 16, 32, 64, 128};
 static const double ceiling_albedo = 0.8;
-static const double floor_albedo = 1e-3;
+static const double floor_albedo = 1e-6;
 static const double half_ceiling = 2.0;
 static const double seen = 1.5; // [m] the picture is this half wide on the floor
 static const double flux = 10.0;
@@ -123,6 +123,7 @@ static void measure(const effort *of, const double truth[PIXELS], double error[S
     settings.light.estimate.radius = of->radius;
     settings.light.spp = 1;
     settings.everywhere = true;
+    settings.unpacked = true; // photons of one power would all be rounded the same way
     settings.only = PM_LAYER_INDIRECT;
     for (uint32_t seed = 1; seed <= SEEDS; seed++) {
         pm_progressive done = {0};
@@ -164,7 +165,7 @@ static void errors_fall_as_the_radii_say(void)
 {
     const char *full = getenv("FULL");
     bool wide = full != NULL && full[0] != '\0';
-    effort of = wide ? (effort){40000, 0.5} : (effort){300, 0.1};
+    effort of = wide ? (effort){20000, 0.55} : (effort){300, 0.1};
     static double truth[PIXELS];
     double want[STEPS];
     double got[STEPS] = {0.0};
@@ -173,8 +174,11 @@ static void errors_fall_as_the_radii_say(void)
     } else {
         omp_set_num_threads(1); // passes are too short to be shared
     }
+    double side = 2.0 * seen / SIDE;
     for (int i = 0; i < PIXELS; i++) {
-        truth[i] = irradiance_at(middle(i % SIDE), middle(i / SIDE));
+        double x = middle(i % SIDE);
+        double y = middle(i / SIDE);
+        truth[i] = irradiance_at(x, y) + laplacian_at(x, y) * side * side / 24.0; // its mean
     }
     predict(&of, truth, want);
     measure(&of, truth, got);
