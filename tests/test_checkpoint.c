@@ -206,20 +206,17 @@ static void check_other(work *w, const char *path, const char *words)
     CHECK(back.sum == NULL);
 }
 
-static void other_settings_are_refused_by_name(void)
-{
-    work w;
-    begin(&w);
-    do_passes(&w, 1);
-    const char *path = pm_command_path("c.checkpoint");
-    CHECK_OK(write_to(&w, path));
-    const pm_render_settings old = w.settings;
+// Another value of one setting, and what is said of it.
 #define OTHER(field, value, words)                                                             \
     do {                                                                                       \
-        w.settings.field = (value);                                                            \
-        check_other(&w, path, words);                                                          \
-        w.settings = old;                                                                      \
+        w->settings.field = (value);                                                           \
+        check_other(w, path, words);                                                           \
+        w->settings = old;                                                                     \
     } while (0)
+
+static void check_photons(work *w, const char *path)
+{
+    const pm_render_settings old = w->settings;
     OTHER(seed, 2, "c.checkpoint: its passes were made with seed 1, this is 2: go on with");
     OTHER(photons[PM_MAP_GLOBAL], 301, "made with global-photons 300, this is 301");
     OTHER(photons[PM_MAP_CAUSTIC], 0, "made with caustic-photons 300, this is 0");
@@ -237,6 +234,11 @@ static void other_settings_are_refused_by_name(void)
     OTHER(light.estimate.filter, PM_FILTER_GAUSSIAN, "made with filter none, this is gaussian");
     OTHER(light.estimate.constants, PM_CONSTANTS_LECTURE,
           "made with kernel-constants unbiased, this is lecture");
+}
+
+static void check_picture(work *w, const char *path)
+{
+    const pm_render_settings old = w->settings;
     OTHER(light.rays, 4, "made with gather 0, this is 4");
     OTHER(light.spp, 2, "made with spp 1, this is 2");
     OTHER(light.light_samples, 2, "made with light-samples 1, this is 2");
@@ -246,7 +248,17 @@ static void other_settings_are_refused_by_name(void)
     OTHER(light.step, 0.25, "made with march-step 0, this is 0.25");
     OTHER(precompute, true, "made with precompute off, this is on");
     OTHER(only, PM_LAYER_CAUSTIC, "made with only all, this is caustic");
-#undef OTHER
+}
+
+static void other_settings_are_refused_by_name(void)
+{
+    work w;
+    begin(&w);
+    do_passes(&w, 1);
+    const char *path = pm_command_path("c.checkpoint");
+    CHECK_OK(write_to(&w, path));
+    check_photons(&w, path);
+    check_picture(&w, path);
     pm_progressive back = {0};
     CHECK_OK(read_from(&w, path, &back));
     pm_progressive_free(&back);

@@ -273,28 +273,42 @@ typedef struct {
     const char *more, *words;
 } refusal;
 
+// {C} stands for a checkpoint that is there, {N} for one that is not.
+static const refusal wrong_lines[] = {
+    {"--passes 5", "--passes belongs to --progressive"},
+    {"--checkpoint {C}", "--checkpoint belongs to --progressive"},
+    {"--progressive --resume", "--resume needs --checkpoint FILE"},
+    {"--progressive --passes 0", "--passes must be a whole number from 1 to 268435455"},
+    {"--progressive --preset lecture-10k", "--preset lecture-10k fills maps: add -n N"},
+    {"--progressive --view photons", "--view photons cannot be given"},
+    {"--progressive --map x.ply", "--map cannot be given"},
+    {"--progressive --checkpoint {C}", "is there already: --resume goes on from it"},
+    {"--progressive --checkpoint {N} --resume", "is not there to resume from"},
+    {"-n 500 --progressive --checkpoint {C} --resume --passes 1",
+     "holds 2 passes, more than --passes 1: ask for 2 or more"},
+    {"-n 500 --progressive --checkpoint {C} --resume --passes 4 --seed 8",
+     "its passes were made with seed 1, this is 8"},
+    {"-n 500 --progressive --checkpoint {C} --resume --passes 4 -k 9",
+     "its passes were made with k 100, this is 9"},
+    {"--progressive --checkpoint {O}", "would overwrite what --checkpoint writes"},
+};
+
+/// The line with the path of its checkpoint.
+static void spell_checkpoint(char *line, size_t room)
+{
+    char *mark = strstr(line, "{C}");
+    const char *path = pm_command_path(mark != NULL ? "c.checkpoint" : "no.checkpoint");
+    mark = mark == NULL ? strstr(line, "{N}") : mark;
+    if (mark != NULL) {
+        char rest[1024];
+        snprintf(rest, sizeof rest, "%s", mark + 3);
+        snprintf(mark, room - (size_t)(mark - line), "%s%s", path, rest);
+    }
+}
+
 static void wrong_lines_are_refused(void)
 {
     const char *checkpoint = pm_command_path("c.checkpoint");
-    const char *missing = pm_command_path("no.checkpoint");
-    static const refusal table[] = {
-        {"--passes 5", "--passes belongs to --progressive"},
-        {"--checkpoint {C}", "--checkpoint belongs to --progressive"},
-        {"--progressive --resume", "--resume needs --checkpoint FILE"},
-        {"--progressive --passes 0", "--passes must be a whole number from 1 to 268435455"},
-        {"--progressive --preset lecture-10k", "--preset lecture-10k fills maps: add -n N"},
-        {"--progressive --view photons", "--view photons cannot be given"},
-        {"--progressive --map x.ply", "--map cannot be given"},
-        {"--progressive --checkpoint {C}", "is there already: --resume goes on from it"},
-        {"--progressive --checkpoint {N} --resume", "is not there to resume from"},
-        {"-n 500 --progressive --checkpoint {C} --resume --passes 1",
-         "holds 2 passes, more than --passes 1: ask for 2 or more"},
-        {"-n 500 --progressive --checkpoint {C} --resume --passes 4 --seed 8",
-         "its passes were made with seed 1, this is 8"},
-        {"-n 500 --progressive --checkpoint {C} --resume --passes 4 -k 9",
-         "its passes were made with k 100, this is 9"},
-        {"--progressive --checkpoint {O}", "would overwrite what --checkpoint writes"},
-    };
     char line[4096];
     snprintf(line, sizeof line,
              "render {S} --size 8x8 -n 500 --progressive --passes 2 -o {O} --checkpoint %s",
@@ -303,18 +317,11 @@ static void wrong_lines_are_refused(void)
     CHECK(first.exit_code == 0 && is_there(checkpoint));
     pm_test_ran_free(&first);
     int before = pm_command_count_files();
-    for (size_t i = 0; i < sizeof table / sizeof table[0]; i++) {
-        snprintf(line, sizeof line, "render {S} --size 8x8 -o {O} %s", table[i].more);
-        char *mark = strstr(line, "{C}");
-        mark = mark == NULL ? strstr(line, "{N}") : mark;
-        if (mark != NULL) {
-            char rest[1024];
-            snprintf(rest, sizeof rest, "%s", mark + 3);
-            snprintf(mark, sizeof line - (size_t)(mark - line), "%s%s",
-                     mark[1] == 'C' ? checkpoint : missing, rest);
-        }
+    for (size_t i = 0; i < sizeof wrong_lines / sizeof wrong_lines[0]; i++) {
+        snprintf(line, sizeof line, "render {S} --size 8x8 -o {O} %s", wrong_lines[i].more);
+        spell_checkpoint(line, sizeof line);
         pm_test_ran ran = pm_command_run(line, scene, pm_command_path("out"));
-        pm_command_check_refusal(line, &ran, table[i].words);
+        pm_command_check_refusal(line, &ran, wrong_lines[i].words);
         CHECK_THAT(pm_command_count_files() == before, "%s: leaves a file behind", line);
         pm_test_ran_free(&ran);
     }
