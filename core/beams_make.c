@@ -85,13 +85,6 @@ static void arrange(const pm_photon_run *run, uint32_t first, uint32_t count)
 
 // --- radii ----------------------------------------------------------------------------------
 
-static bool is_kept(const void *context, const pm_photon *photon, double *distance2)
-{
-    (void)distance2; // Euclidean, as it comes
-    const making *make = context;
-    return (photon->flags & make->skip) == 0;
-}
-
 /// The smallest radius that float positions around `at` can tell from 0.
 static double least_radius(pm_vec3 at)
 {
@@ -103,12 +96,13 @@ static double least_radius(pm_vec3 at)
 static pm_status radius_by_neighbours(const making *make, pm_vec3 at, pm_neighbour *nearest,
                                       double *radius)
 {
+    pm_estimate_query query = {{.at = at}, PM_GATHER_SPHERE, 1.0, make->skip, 0};
     pm_search search = {
         .at = at,
         .k = make->neighbour + 1,
         .radius2 = HUGE_VAL,
-        .accept = is_kept,
-        .context = make,
+        .accept = pm_estimate_accept,
+        .context = &query,
     };
     uint32_t found;
     PM_TRY(pm_balance_nearest(make->map, &search, nearest, &found, NULL));

@@ -284,24 +284,20 @@ static pm_spectrum scattered(const void *context, const pm_photon_view *photon)
     return pm_spectrum_scale(to->medium->albedo, phase);
 }
 
-/// Who counts in a ball. Has no normal: in a medium no side is the wrong one.
+/// Who counts in a ball. Without a normal: in a medium no side is the wrong one.
 typedef struct {
-    pm_vec3 at;
+    pm_estimate_query query;
     const pm_rim *rim;
-    uint16_t skip, only;
 } ball_query;
 
 /// In the manner of pm_estimate_accept().
 static bool is_inside(const void *context, const pm_photon *photon, double *distance2)
 {
-    const ball_query *query = context;
-    (void)distance2; // Euclidean, as it comes
-    if ((photon->flags & query->skip) != 0 || (photon->flags & query->only) != query->only) {
-        return false;
-    }
+    const ball_query *ball = context;
     pm_vec3 place = pm_vec((double)photon->position[0], (double)photon->position[1],
                            (double)photon->position[2]);
-    return pm_rim_is_before(query->rim, pm_vec_sub(place, query->at));
+    return pm_rim_is_before(ball->rim, pm_vec_sub(place, ball->query.point.at)) &&
+           pm_estimate_accept(&ball->query, photon, distance2);
 }
 
 /// Volume of a ball before a plane that passes its middle at `distance`.
@@ -319,7 +315,8 @@ pm_status pm_estimate_beside(const pm_photon_map *map, const pm_estimate_setting
     pm_estimate_settings constant = *settings;
     constant.filter = PM_FILTER_NONE; // kernels are made for discs
     scattering to = {medium, wo};
-    ball_query query = {at, rim, settings->skip, settings->only};
+    ball_query query = {{{.at = at}, PM_GATHER_SPHERE, 1.0, settings->skip, settings->only},
+                        rim};
     pm_search what = {.at = at, .accept = is_inside, .context = &query};
     extent ball;
     pm_spectrum sum;

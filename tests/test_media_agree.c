@@ -22,7 +22,7 @@ static void fog_room(pm_scenes *s)
     pm_scenes_point(s, pm_vec(0.2, -0.6, 0.7), pm_rgb(12.0, 10.0, 8.0));
     pm_frame upright = pm_shapes_upright();
     pm_scenes_bound(s, pm_shapes_cube(&upright, pm_vec(0.0, 0.3, 0.0), 0.6), fog, PM_NONE);
-    pm_pictures_look(s, pm_vec(0.0, -0.95, 0.1), pm_vec(0.0, 0.5, 0.0), 0.8, 12);
+    pm_pictures_look(s, pm_vec(0.0, -0.95, 0.1), pm_vec(0.0, 0.5, 0.0), 0.8, 10);
     pm_scenes_ready(s);
 }
 
@@ -31,7 +31,7 @@ static pm_render_settings settings_of(pm_media_query query, double reach)
     pm_render_settings settings = pm_pictures_settings();
     settings.photons[PM_MAP_GLOBAL] = 20000;
     settings.photons[PM_MAP_VOLUME] = 40000;
-    settings.light.rays = 8;
+    settings.light.rays = 4;
     settings.light.estimate.k = 50;
     settings.light.media = query;
     settings.light.step = query == PM_MEDIA_MARCH ? 2.0 * reach : 0.0;
@@ -53,7 +53,7 @@ static void both_are_the_reference(void)
 {
     pm_scenes s;
     fog_room(&s);
-    pm_pictures_means want = pm_references_trace(&s, 700);
+    pm_pictures_means want = pm_references_trace(&s, 900);
     pm_render_settings settings = settings_of(PM_MEDIA_BEAMS, 0.1);
     pm_pictures_means got = pm_pictures_repeat(&s, settings, 4);
     agree("beams: volume", PM_LAYER_VOLUME, &got, &want, 0.02);
