@@ -40,7 +40,7 @@ static const row rows[] = {
     {"shell", "cool", "20.106", 52000},
     {"sparse", "lamp", "50.2655", 24},
     {"square-over-floor", "light-source", "3.14159", 0},
-    {"sun", "sun", "750.966", 24},
+    {"sun", "sun", "273.696", 24},
     {"water", "sun", "109.61", 73728},
 };
 enum { ROWS = sizeof rows / sizeof rows[0] };
