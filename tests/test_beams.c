@@ -263,7 +263,7 @@ static void wrong_maps_and_radii_are_refused(void)
     pm_beams beams = {0};
     CHECK_FAILS(pm_beams_make(NULL, &map, 0.0, 1, 0, &beams), PM_EINPUT,
                 "a beam's radius must be > 0 as a float, got 0");
-    CHECK_FAILS(pm_beams_make(NULL, &map, NAN, 1, 0, &beams), PM_EINPUT, "got nan");
+    CHECK_FAILS(pm_beams_make(NULL, &map, (double)NAN, 1, 0, &beams), PM_EINPUT, "got nan");
     CHECK_FAILS(pm_beams_make(NULL, &map, 1e-60, 1, 0, &beams), PM_EINPUT, "got 1e-60");
     CHECK_FAILS(pm_beams_make(NULL, &map, HUGE_VAL, 0, 0, &beams), PM_EINPUT,
                 "k must be at least 1, got 0");

@@ -283,7 +283,7 @@ static void steps_without_end_are_refused(void)
     pm_spectrum radiance;
     CHECK_FAILS(pm_media_march(&march, &fog, &ray, &rng, &radiance), PM_EINPUT,
                 "a march's step must be > 0, got 0");
-    march.step = NAN;
+    march.step = (double)NAN;
     CHECK_FAILS(pm_media_march(&march, &fog, &ray, &rng, &radiance), PM_EINPUT, "got nan");
     march.step = 1e-12;
     CHECK_FAILS(pm_media_march(&march, &fog, &ray, &rng, &radiance), PM_ELIMIT,
