@@ -61,13 +61,12 @@ static void sun_reaches_the_floor_through_fog(void)
     pm_vec3 at = pm_vec(0.0, 0.5, 1e-5);
     const pm_ray up = ray_in(&o, at, pm_vec_negate(sun->direction), HUGE_VAL, "");
     double share = pm_medium_clear(&o.world, &up);
-    CHECK_NEAR(sun->emitted.c[0] * -sun->direction.z * share, 10.8814, 1e-3);
-    CHECK_NEAR(sun->emitted.c[0] * sun->direction.x * 1.08, 20.6331, 1e-4);
+    CHECK_NEAR(sun->emitted.c[0] * -sun->direction.z * share, 10.9506, 1e-3);
+    CHECK_NEAR(sun->emitted.c[0] * sun->direction.x * 2.4, 46.08, 1e-4);
     pm_ray barred = up;
-    barred.origin.x += 0.6; // below the bar between the openings, and beside the pedestal
+    barred.origin.x += 0.3; // below the bar between the openings, and beside the pedestal
     barred.origin.y -= 0.4;
     CHECK(pm_medium_clear(&o.world, &barred) == 0.0);
-    CHECK_THAT(o.scene.camera.medium != PM_NONE, "the camera stands in no fog");
     close_world(&o);
 }
 
