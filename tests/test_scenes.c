@@ -34,6 +34,7 @@ static const row rows[] = {
     {"lights", "weak", "0.075398", 0},
     {"lights", "sky", "5.7192", 0},
     {"mesh-spheres", "sun", "810.53", 640},
+    {"prism", "beam", "8.24131", 8},
     {"prism", "lamp", "2.26195", 8},
     {"ring", "sun", "170.02", 0},
     {"shell", "warm", "117.62", 52000},
