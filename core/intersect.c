@@ -53,6 +53,7 @@ typedef struct {
     embree_context context;
     const world *world;
     const pm_ray *ray;
+    bool past_null; // null surfaces are not met
     double skipped; // [m] of the double ray before Embree's starts
     double t;       // [m] nearest so far, or t_max
     unsigned shape; // RTC_INVALID_GEOMETRY_ID: none so far
@@ -66,19 +67,20 @@ static float to_embree(const world *at, double length)
 
 // --- queries -----------------------------------------------------------------------------
 
-/// The float ray for `ask->ray`. False when the ray cannot meet the scene.
+/// The float ray for `ask->ray`, of which at least `ask->skipped` may be left out. False when
+/// the ray cannot meet the scene.
 static bool start_ray(query *ask, struct RTCRay *ray)
 {
     const world *at = ask->world;
     const pm_ray *exact = ask->ray;
     double nearest = -pm_vec_dot(exact->origin, exact->direction); // to the middle of the scene
     double outside = nearest - 0.5 * RAY_ROOM * at->extent;
-    ask->skipped = outside > 0.0 ? outside : 0.0;
+    ask->skipped = outside > ask->skipped ? outside : ask->skipped;
     pm_vec3 origin = pm_vec_along(exact->origin, exact->direction, ask->skipped);
-    if (!(pm_vec_reach(origin) <= RAY_ROOM * at->extent) || exact->t_max <= ask->skipped) {
+    if (!(pm_vec_reach(origin) <= RAY_ROOM * at->extent) || ask->t <= ask->skipped) {
         return false;
     }
-    double rest = (exact->t_max - ask->skipped) * at->scale;
+    double rest = (ask->t - ask->skipped) * at->scale;
     double end = rest < 4.0 * RAY_ROOM ? rest : 4.0 * RAY_ROOM;
     *ray = (struct RTCRay){
         .org_x = to_embree(at, origin.x),
@@ -126,20 +128,41 @@ static void walk_blocked(query *ask, struct RTCRay *ray)
 #endif
 }
 
+/// The answer to a query, which asks up to `ask->t`.
+static bool answer(query *ask, pm_hit *hit)
+{
+    struct RTCRayHit found = {.hit = {.geomID = RTC_INVALID_GEOMETRY_ID}};
+    ask->shape = RTC_INVALID_GEOMETRY_ID;
+    if (!start_ray(ask, &found.ray)) {
+        return false;
+    }
+    start_context(ask);
+    walk_closest(ask, &found);
+    if (ask->shape == RTC_INVALID_GEOMETRY_ID) {
+        return false;
+    }
+    *hit = (pm_hit){.t = ask->t, .shape = (int)ask->shape, .primitive = ask->primitive};
+    pm_shape_complete(&ask->world->shapes[ask->shape], ask->ray, hit);
+    return true;
+}
+
 static bool closest(const void *state, const pm_ray *ray, pm_hit *hit)
 {
-    query ask = {.world = state, .ray = ray, .t = ray->t_max, .shape = RTC_INVALID_GEOMETRY_ID};
-    struct RTCRayHit found = {.hit = {.geomID = RTC_INVALID_GEOMETRY_ID}};
-    if (!start_ray(&ask, &found.ray)) {
+    query ask = {.world = state, .ray = ray, .t = ray->t_max};
+    if (!answer(&ask, hit)) {
         return false;
     }
-    start_context(&ask);
-    walk_closest(&ask, &found);
-    if (ask.shape == RTC_INVALID_GEOMETRY_ID) {
-        return false;
+    if (ask.world->subjects[hit->shape].is_null) {
+        double end = hit->t + pm_hit_passed(hit, ray->direction);
+        query behind = {
+            .world = state,
+            .ray = ray,
+            .past_null = true,
+            .skipped = pm_most(0.0, hit->t - hit->offset),
+            .t = pm_least(end, ray->t_max),
+        };
+        (void)answer(&behind, hit);
     }
-    *hit = (pm_hit){.t = ask.t, .shape = (int)ask.shape, .primitive = ask.primitive};
-    pm_shape_complete(&ask.world->shapes[ask.shape], ray, hit);
     return true;
 }
 
@@ -184,7 +207,7 @@ static void meet_closest(const struct RTCIntersectFunctionNArguments *arguments)
     query *ask = (query *)arguments->context;
     const subject *of = arguments->geometryUserPtr;
     double t;
-    if (!arguments->valid[0] ||
+    if (!arguments->valid[0] || (ask->past_null && of->is_null) ||
         !pm_shape_hit(of->shape, arguments->primID, ask->ray, ask->t, &t) ||
         !comes_first(ask, t, arguments->geomID, arguments->primID)) {
         return;

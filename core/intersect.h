@@ -5,6 +5,9 @@
 // hits at the same t by the lower shape, then primitive; so they agree to the last bit. Embree,
 // whose own rays are float, only says which primitives are worth asking.
 //
+// Of a null surface and another one less than an offset behind it, the other one is met: a ray
+// that passed the null surface would start beyond both. So a medium may end right on a wall.
+//
 // Offset rule. A hit is recomputed on its primitive in double. A ray that leaves it starts
 // moved along the geometric normal, to the side it leaves by, by 2^-19 of the largest
 // coordinate of hit and primitive. Nothing depends on the size of the whole scene and no
@@ -80,6 +83,12 @@ static inline pm_vec3 pm_hit_leave(const pm_hit *hit, pm_vec3 direction)
 {
     double side = pm_vec_dot(direction, hit->normal) < 0.0 ? -1.0 : 1.0;
     return pm_vec_along(hit->inner, hit->normal, side * hit->offset);
+}
+
+/// How far behind `hit` a ray along the unit `direction` starts that passes it [m].
+static inline double pm_hit_passed(const pm_hit *hit, pm_vec3 direction)
+{
+    return hit->offset / fabs(pm_vec_dot(direction, hit->normal));
 }
 
 /// The ray from `hit` along the unit `direction`, without end.

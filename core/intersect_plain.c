@@ -13,14 +13,15 @@ typedef struct {
     const pm_scene *scene;
 } world;
 
-static bool closest(const void *state, const pm_ray *ray, pm_hit *hit)
+/// The nearest hit up to `limit`, of surfaces other than null ones if `past_null`.
+static bool answer(const pm_scene *scene, const pm_ray *ray, double limit, bool past_null,
+                   pm_hit *hit)
 {
-    const pm_scene *scene = ((const world *)state)->scene;
     pm_hit best = {.shape = PM_NONE};
-    double limit = ray->t_max;
     for (int i = 0; i < scene->shape_count; i++) {
         const pm_shape *shape = &scene->shapes[i];
-        uint32_t count = pm_shape_primitives(shape);
+        uint32_t count =
+            past_null && pm_shape_is_null(scene, shape) ? 0 : pm_shape_primitives(shape);
         for (uint32_t j = 0; j < count; j++) {
             double t;
             if (pm_shape_hit(shape, j, ray, limit, &t) &&
@@ -35,6 +36,19 @@ static bool closest(const void *state, const pm_ray *ray, pm_hit *hit)
     }
     *hit = best;
     pm_shape_complete(&scene->shapes[best.shape], ray, hit);
+    return true;
+}
+
+static bool closest(const void *state, const pm_ray *ray, pm_hit *hit)
+{
+    const pm_scene *scene = ((const world *)state)->scene;
+    if (!answer(scene, ray, ray->t_max, false, hit)) {
+        return false;
+    }
+    if (pm_shape_is_null(scene, &scene->shapes[hit->shape])) {
+        double end = hit->t + pm_hit_passed(hit, ray->direction);
+        (void)answer(scene, ray, pm_least(end, ray->t_max), true, hit);
+    }
     return true;
 }
 

@@ -262,6 +262,39 @@ static void null_surfaces_let_pass(void)
     }
 }
 
+/// Where a medium ends right on a floor, and a ray that passed its end would start below both.
+static void walls_stand_before_null_surfaces_on_them(void)
+{
+    pm_material materials[2] = {{.type = PM_BSDF_NULL}, {.type = PM_BSDF_DIFFUSE}};
+    pm_vec3 x = pm_vec(1.3, 0.4, 0.3);
+    pm_vec3 y = pm_vec(-0.2, 1.1, 0.7);
+    pm_vec3 corner = pm_vec(-0.5, -0.8, -0.1);
+    pm_shape shapes[2] = {
+        pm_shapes_rectangle(corner, x, y),
+        pm_shapes_rectangle(pm_vec_along(corner, x, -0.1), pm_vec_scale(x, 1.2), y)};
+    for (int i = 0; i < 2; i++) {
+        shapes[i].material[0] = shapes[i].material[1] = i;
+    }
+    pm_scene scene = pm_shapes_scene(shapes, 2);
+    scene.materials = materials;
+    scene.material_count = 2;
+    pm_intersector worlds[2];
+    CHECK_OK(pm_intersect_embree(&scene, &worlds[0]));
+    CHECK_OK(pm_intersect_plain(&scene, &worlds[1]));
+    pm_rng rng = pm_shapes_rng(5, 9);
+    int leaks = 0;
+    for (int i = 0; i < 2000; i++) {
+        pm_ray ray = random_ray(8 * i, &rng);
+        pm_hit hits[2];
+        bool met = pm_closest(&worlds[0], &ray, &hits[0]);
+        CHECK(pm_closest(&worlds[1], &ray, &hits[1]) == met);
+        leaks += met && (hits[0].shape != 1 || !same_hit(&hits[0], &hits[1]));
+    }
+    CHECK(leaks == 0);
+    pm_intersector_free(&worlds[0]);
+    pm_intersector_free(&worlds[1]);
+}
+
 // --- scenes with little in them, and what must not happen --------------------------------
 
 static void check_nothing_there(pm_shape *shapes, size_t count)
@@ -353,4 +386,6 @@ PM_TESTS({"intersect.1", "Embree gives the oracle's hits to the last bit",
          {"intersect.7", "of surfaces at the same distance the first is met",
           equal_distances_go_to_the_first},
          {"intersect.8", "denormal numbers survive ray queries in every thread",
-          denormals_survive})
+          denormals_survive},
+         {"intersect.9", "a wall is met before a null surface that lies on it",
+          walls_stand_before_null_surfaces_on_them})
