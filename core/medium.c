@@ -1,5 +1,5 @@
-// The phase function and its inverse are written so that no digits are lost for g near 0 or
-// near +-1; neither has a special case.
+// The phase function and its inverse are written in sums of terms of one sign, so that no
+// digits are lost for g near 0 or near +-1.
 #include "medium.h"
 
 #include "shape.h"
@@ -22,26 +22,29 @@ double pm_medium_collision_depth(double u)
 double pm_medium_phase(const pm_medium *medium, double cosine)
 {
     double g = medium->g;
-    double base = (1.0 - g) * (1.0 - g) + 2.0 * g * (1.0 - cosine); // 1 + g^2 - 2 g cos
-    return (1.0 - g * g) / (4.0 * PM_PI * base * sqrt(base));
+    double apart = g < 0.0 ? 1.0 + cosine : 1.0 - cosine; // from the likeliest way
+    double rest = 1.0 - fabs(g);
+    double base = rest * rest + 2.0 * fabs(g) * apart; // 1 + g^2 - 2 g cos
+    return rest * (1.0 + fabs(g)) / (4.0 * PM_PI * base * sqrt(base));
 }
 
-/// The cosine below which lies the share (1 + s) / 2 of the phase function.
-static double cosine_at(double g, double s)
+/// 1 - cosine at which the share (1 + s) / 2 of the phase function has a smaller cosine; with
+/// both signs changed, 1 + cosine.
+static double apart_at(double g, double s)
 {
-    double g2 = g * g;
-    double root = 1.0 + g * s;
-    double cosine =
-        (s * (1.0 + g2) + 0.5 * g * (s * s * (1.0 + g2) + 3.0 - g2)) / (root * root);
-    return pm_most(-1.0, pm_least(1.0, cosine)); // rounding only
+    double root = g < 0.0 ? 1.0 + g - g * (1.0 - s) : 1.0 - g + g * (1.0 + s); // 1 + g s
+    double part = (1.0 - g) / root;
+    return 0.5 * part * part * (1.0 - s) * (root + 1.0 + g);
 }
 
 pm_vec3 pm_medium_turn(const pm_medium *medium, pm_vec3 direction, pm_rng *rng)
 {
     double s = 2.0 * pm_rng_draw(rng) - 1.0;
     double azimuth = 2.0 * PM_PI * pm_rng_draw(rng);
-    double cosine = cosine_at(medium->g, s);
-    double sine = sqrt((1.0 - cosine) * (1.0 + cosine));
+    double before = apart_at(medium->g, s);
+    double behind = apart_at(-medium->g, -s);
+    double cosine = before < behind ? 1.0 - before : behind - 1.0;
+    double sine = sqrt(before * behind);
     pm_frame frame = pm_frame_around(direction);
     pm_vec3 local = pm_vec(sine * cos(azimuth), sine * sin(azimuth), cosine);
     return pm_vec_normalize(pm_frame_to_world(&frame, local));

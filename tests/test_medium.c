@@ -103,6 +103,28 @@ static void turns_follow_the_phase_function(void)
     }
 }
 
+/// Half of all turns are within the median of the way on, or back, which is far narrower than
+/// what a cosine can tell from 1.
+static void narrow_turns_keep_their_digits(void)
+{
+    static const double ends[] = {1.0 - 0x1p-30, -1.0 + 0x1p-30};
+    for (int i = 0; i < 2; i++) {
+        double rest = 1.0 - fabs(ends[i]);
+        pm_medium medium = scattering(ends[i]);
+        double peak = pm_medium_phase(&medium, i == 0 ? 1.0 : -1.0);
+        CHECK_NEAR(peak * 4.0 * PM_PI * rest * rest / (2.0 - rest), 1.0, 1e-12);
+        int within = 0;
+        for (uint64_t j = 0; j < COUNT; j++) {
+            pm_rng rng = pm_shapes_rng(j, 1);
+            pm_vec3 onward = pm_medium_turn(&medium, pm_vec(0.0, 0.0, 1.0), &rng);
+            CHECK((onward.z > 0.0) == (i == 0) || fabs(onward.z) < 0.999);
+            // sin^2 is about twice 1 - cos; its median is rest^2 (2 + |g|).
+            within += onward.x * onward.x + onward.y * onward.y < 3.0 * rest * rest;
+        }
+        CHECK_NEAR((double)within / COUNT, 0.5, pm_chance_bound(0.25, COUNT));
+    }
+}
+
 static void free_paths_are_exponential(void)
 {
     CHECK_NEAR(pm_medium_collision_depth(0.0), 0.0, 0.0);
@@ -134,4 +156,6 @@ PM_TESTS({"medium.1", "the phase function integrates to 1 with mean cosine g",
          {"medium.4", "free paths are exponential, far beyond sixteen of them too",
           free_paths_are_exponential},
          {"medium.5", "no extinction lets all through, a million a metre nothing",
-          extinction_at_its_ends})
+          extinction_at_its_ends},
+         {"medium.6", "g within 1e-9 of 1 or -1 gives a peak and turns of the right width",
+          narrow_turns_keep_their_digits})
