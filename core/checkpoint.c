@@ -153,7 +153,8 @@ static void walk(channel *by, pm_progressive *progressive)
 {
     uint64_t passes = progressive->passes;
     pass_count(by, &passes);
-    progressive->passes = (uint32_t)passes;
+    progressive->passes =
+        passes > UINT32_MAX ? UINT32_MAX : (uint32_t)passes; // too many are refused
     for (int kind = 0; kind < PM_MAP_COUNT; kind++) {
         walk_map(by, &progressive->map[kind]);
     }

@@ -129,20 +129,29 @@ size_t pm_checkpoint_text_print(const pm_scene *scene, const pm_render_settings 
     return p.length;
 }
 
-/// Adds a fault for one line of each text, up to their ends.
+/// Whether both first lines, one of which may be empty, have the same name.
+static bool same_name(const char *found, const char *wanted)
+{
+    size_t name = strcspn(wanted, " ");
+    return name > 0 && strncmp(found, wanted, name) == 0 && found[name] == ' ';
+}
+
+/// The first lines differ in their names: the rest cannot be compared.
+static pm_status refuse_name(const char *path, const char *found, const char *wanted)
+{
+    return pm_status_fail(PM_EINPUT,
+                          "%s: says \"%.*s\" where \"%.*s\" belongs: begin another file", path,
+                          (int)strcspn(found, "\n"), found, (int)strcspn(wanted, " "), wanted);
+}
+
+/// Adds a fault if the first lines, of one name, differ.
 static void compare_line(const char *path, const char *found, const char *wanted, char *faults)
 {
     size_t used = strlen(faults);
     size_t name = strcspn(wanted, " ");
     size_t line = strcspn(wanted, "\n");
     size_t old = strcspn(found, "\n");
-    bool named = old > name && memcmp(found, wanted, name + 1) == 0;
     if (old == line && memcmp(found, wanted, line) == 0) {
-        return;
-    }
-    if (!named) {
-        snprintf(faults + used, FAULTS_ROOM - used, "%s%s: says \"%.*s\" where %.*s belongs",
-                 used > 0 ? "\n" : "", path, (int)old, found, (int)name, wanted);
         return;
     }
     snprintf(faults + used, FAULTS_ROOM - used,
@@ -155,7 +164,10 @@ static void compare_line(const char *path, const char *found, const char *wanted
 pm_status pm_checkpoint_text_compare(const char *path, const char *found, const char *wanted)
 {
     char faults[FAULTS_ROOM] = "";
-    while (*wanted != '\0') {
+    while (*wanted != '\0' || *found != '\0') {
+        if (!same_name(found, wanted)) {
+            return refuse_name(path, found, wanted);
+        }
         compare_line(path, found, wanted, faults);
         found += strcspn(found, "\n");
         found += *found == '\n' ? 1 : 0;

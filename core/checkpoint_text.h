@@ -16,8 +16,9 @@
 size_t pm_checkpoint_text_print(const pm_scene *scene, const pm_render_settings *settings,
                                 char *text);
 
-/// Compares the text of a file with the one wanted, which has the same names.
-/// @return PM_EINPUT with a line for each value that differs, both values in it
+/// Compares the text of a file with the one wanted.
+/// @return PM_EINPUT with a line for each value that differs, both values in it; or with one
+///         for the first name that is missing or too many
 pm_status pm_checkpoint_text_compare(const char *path, const char *found, const char *wanted);
 
 #endif

@@ -10,6 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <zlib.h>
 
 enum { SIDE = 4, STRIDE = 97 };
 
@@ -196,6 +197,63 @@ static void what_is_no_checkpoint_is_refused(void)
     end(&w);
 }
 
+/// The file with `cut` bytes after `place` replaced by text, and a CRC-32 that fits.
+static void rewrite(const saved *file, const char *place, size_t cut, const char *text)
+{
+    size_t at = 0;
+    while (memcmp(file->bytes + at, place, strlen(place)) != 0) {
+        at++;
+        CHECK(at + strlen(place) < file->count);
+    }
+    at += strlen(place);
+    size_t count = file->count - cut + strlen(text);
+    uint8_t *bytes = malloc(count);
+    CHECK(bytes != NULL && cut < file->count - at);
+    memcpy(bytes, file->bytes, at);
+    memcpy(bytes + at, text, strlen(text));
+    memcpy(bytes + at + strlen(text), file->bytes + at + cut, file->count - at - cut);
+    uint32_t crc = (uint32_t)crc32(0, bytes, (uInt)(count - 4));
+    for (size_t i = 0; i < 4; i++) {
+        bytes[count - 4 + i] = (uint8_t)(crc >> (8 * i));
+    }
+    pm_bytes_write(file->path, bytes, count);
+    free(bytes);
+}
+
+/// Files of other programs, whole in themselves.
+static void other_contents_are_refused_in_a_line(void)
+{
+    static const struct {
+        const char *place;
+        size_t cut;
+        const char *text, *words;
+    } others[] = {
+        {"seed 1\n", 10, "", "says \"global-photons 300\" where \"photons\""},
+        {"seed 1\n", 0, "hue 7\n", "says \"hue 7\" where \"photons\" belongs"},
+        {"only all\n", 0, "hue 7\n", "says \"hue 7\" where \"\" belongs"},
+        {"march-step 0", 1, "", "says \"only all\" where \"precompute\" belongs"},
+        {"only all\n\n", 5, "\1\1\1\1\1", " passes, from 1 to 268435455 can be"},
+        {"only all\n\n", 8, "", "holds fewer numbers than its picture has"},
+        {"only all\n\n", 0, "12345678", "numbers than its picture has"},
+    };
+    work w;
+    begin(&w);
+    do_passes(&w, 1);
+    saved file = save(&w);
+    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
+        rewrite(&file, others[i].place, others[i].cut, others[i].text);
+        pm_progressive back = {0};
+        CHECK_FAILS(read_from(&w, file.path, &back), PM_EINPUT, others[i].words);
+    }
+    pm_status_clear();
+    rewrite(&file, "seed 1\n", 10, "");
+    pm_progressive back = {0};
+    CHECK(read_from(&w, file.path, &back) == PM_EINPUT);
+    CHECK(strchr(pm_status_message(), '\n') == NULL); // one fault, one line
+    free(file.bytes);
+    end(&w);
+}
+
 // --- other work ------------------------------------------------------------------------------
 
 /// What the line must say after "were made with ".
@@ -296,4 +354,6 @@ PM_TESTS({"checkpoint.1", "sums come back bit for bit and go on as if nothing ha
          {"checkpoint.5", "every other setting is refused by its name and both values",
           other_settings_are_refused_by_name},
          {"checkpoint.6", "another scene, camera or size is refused by name",
-          other_scenes_are_refused_by_name})
+          other_scenes_are_refused_by_name},
+         {"checkpoint.7", "what other programs might keep is refused, a fault in a line",
+          other_contents_are_refused_in_a_line})
