@@ -1,4 +1,5 @@
-// Only whole passes are ever saved: a pass that is interrupted leaves the sums as they were.
+// Only whole passes are ever saved: a pass that is interrupted or fails leaves the sums as they
+// were. Whatever ends the work, the passes that are done are saved where they can be.
 #include "render_passes.h"
 
 #include "checkpoint.h"
@@ -65,6 +66,14 @@ static pm_status save_picture(job *j)
     return PM_OK;
 }
 
+/// Checkpoint and picture; where one cannot be written, the other is there all the same.
+static pm_status save_all(job *j)
+{
+    pm_status checkpoint = save_checkpoint(j);
+    pm_status picture = save_picture(j);
+    return checkpoint != PM_OK ? checkpoint : picture;
+}
+
 static pm_status save_what_is_due(job *j)
 {
     if (is_due(&j->checkpoint)) {
@@ -116,8 +125,7 @@ static pm_status stop(job *j)
                               " passes: there is no picture yet; nothing was written",
                               j->options->passes);
     }
-    PM_TRY(save_checkpoint(j));
-    PM_TRY(save_picture(j));
+    PM_TRY(save_all(j));
     return pm_status_fail(PM_ESTOPPED,
                           "stopped after %" PRIu32 " of %" PRIu32
                           " passes: the picture is of %s %" PRIu32,
@@ -143,7 +151,6 @@ pm_status pm_render_passes(const pm_intersector *world, const pm_options *option
     if (status == PM_ESTOPPED) {
         return stop(&j);
     }
-    PM_TRY(status);
-    PM_TRY(save_checkpoint(&j));
-    return save_picture(&j);
+    pm_status saved = progressive->passes > 0 ? save_all(&j) : PM_OK;
+    return status != PM_OK ? status : saved; // of two faults, the message is the first one's
 }

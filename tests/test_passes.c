@@ -269,6 +269,24 @@ static void memory_is_that_of_one_pass(void)
                (long long)many, (long long)few);
 }
 
+/// Files may be so long that the picture fits and the checkpoint does not.
+static void where_no_checkpoint_fits_the_picture_is_kept(void)
+{
+    const char *output = pm_command_path("a.exr");
+    char line[4096];
+    snprintf(line, sizeof line,
+             "trap '' XFSZ; ulimit -f 16; exec '%s' %s --size 8x8 -n 500 --progressive "
+             "--passes 2 -o '%s' --checkpoint '%s'",
+             pm_test_program("render"), scene, output, pm_command_path("a.checkpoint"));
+    const char *const argv[] = {"/bin/sh", "-c", line, NULL};
+    pm_test_ran ran = pm_test_run(argv, 50.0);
+    CHECK_THAT(ran.exit_code == 2, "exit code %d: %s", ran.exit_code, ran.err);
+    CHECK_CONTAINS(ran.err, "a.checkpoint: cannot be written: ");
+    CHECK(strchr(ran.err, '\n') == ran.err + strlen(ran.err) - 1);
+    CHECK(is_there(output) && pm_command_count_files() == 1);
+    pm_test_ran_free(&ran);
+}
+
 typedef struct {
     const char *more, *words;
 } refusal;
@@ -337,4 +355,6 @@ PM_TESTS({"passes.1", "interrupted at any time, by any number of threads, work e
           the_report_tells_of_the_passes},
          {"passes.5", "20 passes take the memory of 2", memory_is_that_of_one_pass},
          {"passes.6", "lines that make no passes are refused with a reason",
-          wrong_lines_are_refused})
+          wrong_lines_are_refused},
+         {"passes.7", "where a checkpoint cannot be written, the picture still is",
+          where_no_checkpoint_fits_the_picture_is_kept})
