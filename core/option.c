@@ -46,11 +46,9 @@ static const pm_option table[] = {
      "unbiased|lecture", "lecture: 0.918 in the Gaussian, and k photons in place of k - 1",
      NULL},
     {"gather", "gather", PM_OPTION_COUNT32, AT(gather), AT(gather_given), 0, 1e6, "N",
-     "directions of a final gather; 0: the global map is seen directly, as --progressive does "
-     "unless told",
+     "directions of a final gather; 0: the global map is seen directly", NULL},
+    {"spp", "spp", PM_OPTION_COUNT32, AT(spp), AT(spp_given), 1, 1e6, "N", "samples of a pixel",
      NULL},
-    {"spp", "spp", PM_OPTION_COUNT32, AT(spp), AT(spp_given), 1, 1e6, "N",
-     "samples of a pixel; with --progressive in each pass, 1 unless told", NULL},
     {"direct", "direct", PM_OPTION_SWITCH, AT(direct_photons), 0, 0, 0, "rays|photons",
      "direct light by shadow rays alone, or by shadow photons (as many as the global map has, "
      "sent besides) and rays where these differ",
@@ -67,7 +65,9 @@ static const pm_option table[] = {
      "step of --media march [m], above 0",
      "half a mean free path, at most a fortieth of the photons' box"},
     {"progressive", "progressive", PM_OPTION_FLAG, AT(progressive), 0, 0, 0, "",
-     "the mean of many passes with new photons and ever smaller radii", NULL},
+     "the mean of many passes with new photons and ever smaller radii; unless told, a pass has "
+     "--spp 1 and --gather 0",
+     NULL},
     {"passes", "passes", PM_OPTION_COUNT32, AT(passes), 0, 1, PASSES_MOST, "N",
      "passes of --progressive", NULL},
     {"checkpoint", "checkpoint", PM_OPTION_TEXT, AT(checkpoint), 0, 0, 0, "FILE",

@@ -33,7 +33,7 @@ static const pm_options_program storage = {
     .positional = "SCENE",
     .positional_least = 1,
     .positional_most = 1,
-    .options = "n o check-file photon",
+    .options = "n o check-file photon spp",
 };
 
 // A command line being parsed: argv must stay as long as the options.
@@ -301,17 +301,23 @@ static void check_means_a_file_where_one_is_checked(void)
     CHECK(c.options.check_scene && c.options.check_file == NULL);
 }
 
+static char *usage_of(const pm_options_program *program)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *stream = open_memstream(&text, &size);
+    CHECK(stream != NULL);
+    pm_usage_print(program, stream);
+    fclose(stream);
+    return text;
+}
+
 static void help_wins_over_faults_and_lists_all(void)
 {
     command c;
     CHECK_OK(parse(&render, "--bogus -k 0 --help", &c));
     CHECK(c.options.help);
-    char *text = NULL;
-    size_t size = 0;
-    FILE *stream = open_memstream(&text, &size);
-    CHECK(stream != NULL);
-    pm_usage_print(&render, stream);
-    fclose(stream);
+    char *text = usage_of(&render);
     CHECK_CONTAINS(text, "usage: render SCENE [options]");
     CHECK_CONTAINS(text, "(must be given)");
     CHECK_CONTAINS(text, "(default 64)");
@@ -330,6 +336,9 @@ static void help_wins_over_faults_and_lists_all(void)
     for (const char *at = text; *at != '\0'; at += strcspn(at, "\n") + 1) {
         CHECK_THAT(strcspn(at, "\n") <= 96, "a line of --help is too long: %s", at);
     }
+    free(text);
+    text = usage_of(&storage); // of what it does not take there is no word
+    CHECK(strstr(text, "--spp N") != NULL && strstr(text, "--progressive") == NULL);
     free(text);
 }
 
