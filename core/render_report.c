@@ -212,16 +212,21 @@ static const char *plural(int count)
 pm_status pm_render_report_check(const pm_options *options, const pm_scene *scene)
 {
     if (!options->json) {
-        printf("%s: fine: %d shape%s, %d material%s, %d light%s\n", scene->path,
+        printf("%s: fine: %d shape%s, %d material%s, %d light%s", scene->path,
                scene->shape_count, plural(scene->shape_count), scene->material_count,
                plural(scene->material_count), scene->light_count, plural(scene->light_count));
+        if (scene->medium_count > 0) {
+            printf(", %d %s", scene->medium_count,
+                   scene->medium_count == 1 ? "medium" : "media");
+        }
+        puts("");
     }
     for (int i = 0; i < scene->note_count && !options->json; i++) {
         puts(scene->notes[i]);
     }
-    json_t *object =
-        json_pack("{s:s,s:i,s:i,s:i}", "scene", scene->path, "shapes", scene->shape_count,
-                  "materials", scene->material_count, "lights", scene->light_count);
+    json_t *object = json_pack("{s:s,s:i,s:i,s:i,s:i}", "scene", scene->path, "shapes",
+                               scene->shape_count, "materials", scene->material_count, "lights",
+                               scene->light_count, "media", scene->medium_count);
     object = pm_report_add(object, "lights_emitting", pm_report_lights(scene, NULL));
     return pm_report_end(options, pm_report_add(object, "notes", pm_report_notes(scene)));
 }

@@ -182,6 +182,22 @@ static void points_without_a_medium_need_a_normal(void)
     refused("filtering {S} --at 3,1,0 -n 10", "filtering: --at needs --normal X,Y,Z: its");
 }
 
+static void programs_count_media(void)
+{
+    pm_test_ran ran = pm_command_run("render {S} --check", "scenes/glass-fog.xml", "");
+    CHECK_CONTAINS(ran.out, " 1 light, 1 medium\n");
+    pm_test_ran_free(&ran);
+    ran = pm_command_run("render {S} --check --json", "scenes/glass-fog.xml", "");
+    json_t *object = json_loads(ran.out, 0, NULL);
+    CHECK(json_integer_value(find(object, "media")) == 1);
+    json_decref(object);
+    pm_test_ran_free(&ran);
+    object = run_json("storage {S} -n 500 --volume-photons 70 --json", "");
+    CHECK(json_integer_value(find(object, "maps global emitted")) == 500);
+    CHECK(json_integer_value(find(object, "maps volume emitted")) == 70);
+    json_decref(object);
+}
+
 PM_TESTS({"media_programs.1", "tracing keeps books of each medium",
           tracing_keeps_books_of_media},
          {"media_programs.2", "replays and dumped paths show what happened in a medium",
@@ -193,4 +209,6 @@ PM_TESTS({"media_programs.1", "tracing keeps books of each medium",
          {"media_programs.5", "the fluence at a point is that of the closed form",
           fluence_is_that_of_the_closed_form},
          {"media_programs.6", "a point without a normal outside all media is refused",
-          points_without_a_medium_need_a_normal})
+          points_without_a_medium_need_a_normal},
+         {"media_programs.7", "media are counted, and photons of their map are set apart",
+          programs_count_media})

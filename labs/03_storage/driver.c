@@ -22,8 +22,9 @@ static const pm_options_program program = {
     .positional = "SCENE",
     .positional_least = 1,
     .positional_most = 1,
-    .options = "n global-photons caustic-photons projection roulette max-bounces packing o "
-               "dump check-file report",
+    .options =
+        "n global-photons caustic-photons volume-photons projection roulette max-bounces "
+        "packing o dump check-file report",
     .notes = "-o FILE.ply writes the global map; a caustic and a volume map, where the scene\n"
              "needs them, go beside it as FILE.caustic.ply and FILE.volume.ply. Their x y z\n"
              "are the scene's less the centre that a comment in their header names; --dump\n"
