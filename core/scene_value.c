@@ -161,7 +161,7 @@ pm_spectrum pm_scene_value_ratio(pm_scene_file *source, const pm_xml *object, co
         return value;
     }
     const pm_xml *given = place_of(object, name);
-    PM_FAULT(source, given, "%s %s must lie in [0, 1], got %g in %s", given->tag, name,
+    PM_FAULT(source, given, "%s %s must lie in [0, 1], got %.15g in %s", given->tag, name,
              value.c[i], channel_name[i]);
     return pm_gray(otherwise);
 }
