@@ -11,6 +11,7 @@
 #define MANY 9007199254740992.0 // 2^53: counts stay exact where they meet doubles
 #define UINT32_ABOVE 4294967295.0
 #define PASSES_MOST 268435455.0 // 2^28 - 1: what random numbers tell apart (rng.h)
+#define REACH_LEAST 1e-30       // [m] the last pass's is a float above 0, and has a square
 
 static const pm_option table[] = {
     {"n", "n", PM_OPTION_COUNT, AT(photons), 0, 1, MANY, "N",
@@ -34,8 +35,8 @@ static const pm_option table[] = {
      "20-byte photons; off keeps exact power and direction beside them", NULL},
     {"k", "k", PM_OPTION_COUNT32, AT(estimate.k), AT(k_given), 1, PM_MAP_MAX, "N",
      "photons of an estimate", NULL},
-    {"r", "r", PM_OPTION_POSITIVE, AT(estimate.radius), 0, 0, (double)INFINITY, "R",
-     "reach of an estimate [m], above 0, or none", "none"},
+    {"r", "r", PM_OPTION_POSITIVE, AT(estimate.radius), 0, REACH_LEAST, (double)INFINITY, "R",
+     "reach of an estimate [m], or none", "none"},
     {"shape", "shape", PM_OPTION_CHOICE, AT(estimate.shape), 0, 0, 0, "disc|sphere",
      "region of an estimate", NULL},
     {"flatness", "flatness", PM_OPTION_POSITIVE, AT(estimate.flatness), 0, 0, 1, "F",
