@@ -14,6 +14,9 @@ void pm_scene_build_sides(pm_scene_file *source, const pm_xml *shape, int materi
 /// scene.media; an element's `index` becomes that of its medium.
 void pm_scene_build_media(pm_scene_file *source);
 
+/// Whether a child of a shape is named as the medium on one of its sides.
+bool pm_scene_build_names_side(const pm_xml *child);
+
 /// boundary, interior and exterior of a shape.
 void pm_scene_build_boundary(pm_scene_file *source, const pm_xml *element, pm_shape *shape);
 

@@ -217,8 +217,8 @@ static pm_xml *bsdf_of(pm_scene_file *source, pm_xml *child)
         return NULL;
     }
     pm_xml *meant = pm_scene_file_resolve(source, child);
-    if (meant != NULL && strcmp(meant->tag, "medium") == 0 &&
-        strcmp(child->parent->tag, "shape") == 0) {
+    if (meant != NULL && strcmp(child->parent->tag, "shape") == 0 &&
+        (strcmp(meant->tag, "medium") == 0 || pm_scene_build_names_side(child))) {
         return NULL;
     }
     if (meant != NULL && strcmp(meant->tag, "bsdf") != 0) {

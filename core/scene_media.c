@@ -131,6 +131,11 @@ static bool is_named(const pm_xml *child, const char *name)
     return given != NULL && strcmp(given, name) == 0;
 }
 
+bool pm_scene_build_names_side(const pm_xml *child)
+{
+    return is_named(child, "interior") || is_named(child, "exterior");
+}
+
 /// One child of a shape that is a medium or a <ref> to one.
 static void read_side(pm_scene_file *source, const pm_xml *child, const pm_xml *medium,
                       pm_shape *shape)
@@ -162,8 +167,7 @@ void pm_scene_build_boundary(pm_scene_file *source, const pm_xml *element, pm_sh
         const pm_xml *meant = ref ? pm_scene_file_find(source, e) : e;
         if (meant != NULL && strcmp(meant->tag, "medium") == 0) {
             read_side(source, e, meant, shape);
-        } else if (meant != NULL && ref &&
-                   (is_named(e, "interior") || is_named(e, "exterior"))) {
+        } else if (meant != NULL && ref && pm_scene_build_names_side(e)) {
             PM_FAULT(source, e, "%s takes a medium, and \"%.60s\" is a %s",
                      pm_xml_attribute(e, "name"), pm_xml_attribute(e, "id"), meant->tag);
         }
