@@ -111,13 +111,19 @@ static pm_march march_of(const pm_gather *gather, const pm_medium *medium)
     return march;
 }
 
-/// Light scattered more than once, by the way the settings say.
+static bool scatters(const pm_medium *medium)
+{
+    return medium->sigma_t > 0.0 && !pm_spectrum_is_black(medium->albedo);
+}
+
+/// Light scattered more than once, by the way the settings say. A medium that scatters nothing
+/// asks for none: photons near by are those of another medium, round the corner.
 static pm_status ask_map(const pm_gather *gather, const pm_ray *along, pm_rng *rng,
                          pm_spectrum *radiance)
 {
     const pm_medium *medium = medium_of(gather, along);
     *radiance = pm_gray(0.0);
-    if (gather->map[PM_MAP_VOLUME] == NULL) {
+    if (gather->map[PM_MAP_VOLUME] == NULL || !scatters(medium)) {
         return PM_OK;
     }
     if (gather->settings.media == PM_MEDIA_MARCH) {

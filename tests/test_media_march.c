@@ -5,6 +5,8 @@
 #include "fields.h"
 #include "medium.h"
 #include "photon_map.h"
+#include "render.h"
+#include "scenes.h"
 #include "shapes.h"
 #include "test.h"
 
@@ -273,6 +275,33 @@ static void photons_of_marks_to_skip_are_skipped(void)
     pm_photon_map_free(&map);
 }
 
+/// Photons within reach belong to a medium beside that scatters.
+static void a_clear_medium_takes_no_photons(void)
+{
+    pm_scenes s;
+    pm_scenes_begin(&s);
+    pm_scenes_medium(&s, 0.0, pm_gray(0.9), 0.0);
+    pm_scenes_medium(&s, 2.0, pm_gray(0.0), 0.0);
+    pm_scenes_medium(&s, 2.0, pm_gray(0.9), 0.0);
+    pm_scenes_ready(&s);
+    pm_photon_map map = even_field(3, 1.0);
+    pm_neighbour scratch[ROOM];
+    pm_compose compose = {.world = &s.world};
+    pm_gather gather = {.map[PM_MAP_VOLUME] = &map, .scratch = scratch};
+    gather.settings = pm_render_defaults().light;
+    gather.settings.media = PM_MEDIA_MARCH;
+    pm_gather_sources(&gather, &compose);
+    for (int medium = 0; medium < 3; medium++) {
+        pm_stretch along = {.ray = inner_ray()};
+        along.ray.medium = medium;
+        pm_spectrum radiance;
+        CHECK_OK(pm_media_seen(&gather, &along, &radiance));
+        CHECK(pm_spectrum_is_black(radiance) == (medium < 2));
+    }
+    pm_photon_map_free(&map);
+    pm_scenes_free(&s);
+}
+
 static void steps_without_end_are_refused(void)
 {
     pm_photon_map map = clump();
@@ -305,4 +334,6 @@ PM_TESTS({"media_march.1", "an even field has its radiance, by a radius, by k or
          {"media_march.7", "it begins there, too", steps_on_the_way_to_photons_are_no_work},
          {"media_march.8", "marks leave photons out", photons_of_marks_to_skip_are_skipped},
          {"media_march.9", "steps of no length and steps without end are refused",
-          steps_without_end_are_refused})
+          steps_without_end_are_refused},
+         {"media_march.10", "a medium that scatters nothing takes no photons of its neighbour",
+          a_clear_medium_takes_no_photons})
