@@ -50,7 +50,8 @@ static json_t *entry_of(const json_t *file, const char *name, char path[128])
 {
     size_t i = 0;
     json_t *entry = NULL;
-    snprintf(path, 128, "scenes/%s.xml", name);
+    bool whole = strstr(name, ".xml") != NULL;
+    snprintf(path, 128, whole ? "%s" : "scenes/%s.xml", name);
     json_array_foreach(json_object_get(file, "scenes"), i, entry)
     {
         if (strcmp(json_string_value(json_object_get(entry, "scene")), path) == 0) {
@@ -172,16 +173,18 @@ static void finish(regions *sums)
 /// How a scene is rendered, and how far the density estimate may lead astray: its blur moves
 /// light from bright places to dark ones near by, which share in it by the mean of the picture.
 typedef struct {
-    uint64_t global_photons, caustic_photons;
+    uint64_t global_photons, caustic_photons, volume_photons;
     uint32_t k;
+    uint32_t spp; // eye samples, with two gather rays and a shadow ray each
     double slack; // of a region's value
     double blur;  // of the whole's value
 } quality;
 
-static const quality plain = {60000, 60000, 16, 0.015, 0.0};
-static const quality sharp = {20000, 100000, 10, 0.05, 0.0125}; // caustics with edges
+static const quality plain = {60000, 60000, 0, 16, 4, 0.015, 0.0};
+static const quality sharp = {20000, 100000, 0, 10, 4, 0.05, 0.0125}; // caustics with edges
 // Discs lie flat: where a surface is curved or ribbed within their radius they lose photons.
-static const quality curved = {300000, 60000, 10, 0.015, 0.0};
+static const quality curved = {300000, 60000, 0, 10, 4, 0.015, 0.0};
+static const quality foggy = {30000, 30000, 30000, 16, 1, 0.02, 0.0};
 
 static regions take_render(const peer *p, const pm_intersector *world, quality q)
 {
@@ -191,8 +194,10 @@ static regions take_render(const peer *p, const pm_intersector *world, quality q
         settings.seed = seed;
         settings.photons[PM_MAP_GLOBAL] = q.global_photons;
         settings.photons[PM_MAP_CAUSTIC] = q.caustic_photons;
-        settings.light.rays = 8;
-        settings.light.light_samples = 4;
+        settings.photons[PM_MAP_VOLUME] = q.volume_photons;
+        settings.light.spp = q.spp;
+        settings.light.rays = 2 * q.spp;
+        settings.light.light_samples = q.spp;
         settings.light.estimate.k = q.k;
         pm_render_maps maps = {0};
         pm_image image;
@@ -207,13 +212,13 @@ static regions take_render(const peer *p, const pm_intersector *world, quality q
     return ours;
 }
 
-static regions take_reference(const peer *p, const pm_intersector *world)
+static regions take_reference(const peer *p, const pm_intersector *world, uint32_t spp)
 {
     regions ours = {0};
     for (uint32_t seed = 1; seed <= RUNS / 2; seed++) {
         pm_reference_settings settings = pm_reference_defaults();
         settings.seed = seed;
-        settings.spp = 64;
+        settings.spp = spp;
         settings.light_paths = p->from_lights ? 400000 : 0;
         pm_image image;
         pm_reference_report report;
@@ -283,7 +288,7 @@ static void compare(const char *name, quality q)
     open_world(&p, &scene, &world);
     regions ours = take_render(&p, &world, q);
     check(&p, "render", &ours, q.slack, q.blur);
-    ours = take_reference(&p, &world);
+    ours = take_reference(&p, &world, 16 * q.spp);
     check(&p, "reference", &ours, 0.002, 0.0);
     pm_intersector_free(&world);
     pm_scene_free(&scene);
@@ -293,6 +298,21 @@ static void compare(const char *name, quality q)
 static void cornell_diffuse(void)
 {
     compare("cornell-diffuse", plain);
+}
+
+static void cornell_fog(void)
+{
+    compare("cornell-fog", foggy);
+}
+
+static void sun(void)
+{
+    compare("sun", foggy);
+}
+
+static void nested(void)
+{
+    compare("tests/peers/nested.xml", foggy);
 }
 
 static void cornell_glossy(void)
@@ -361,5 +381,9 @@ PM_TESTS({"peers.1", "cornell-diffuse is what Mitsuba makes of it", cornell_diff
          {"peers.9", "shell is what Mitsuba makes of it", shell},
          {"peers.10", "sparse is what Mitsuba makes of it", sparse},
          {"peers.11", "square-over-floor is what Mitsuba makes of it", square_over_floor},
+         {"peers.13", "cornell-fog is what Mitsuba makes of it", cornell_fog},
+         {"peers.14", "sun is what Mitsuba makes of it", sun},
+         {"peers.15", "media in a medium, dense and coloured, are what Mitsuba makes of them",
+          nested},
          {"peers.12", "water is what Mitsuba makes of it, by light traced to the camera",
           water})

@@ -83,7 +83,7 @@ lecture() {
     picture render water caustics.water $good
     picture render sun shafts-of-light.sun $good
     picture render glass-fog caustic-in-fog.glass-fog $good --volume-photons 1000000
-    picture render prism prism.prism $good --caustic-photons 2000000 -r 0.02
+    picture render prism prism.prism $good -r 0.02
     picture render cornell-fog a-medium.photons $good
     picture reference cornell-fog a-medium.path-tracing --spp 64
     lay lecture "The lecture's pictures" "The sheet of the lecture"
