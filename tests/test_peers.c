@@ -184,7 +184,7 @@ static const quality plain = {60000, 60000, 0, 16, 4, 0.015, 0.0};
 static const quality sharp = {20000, 100000, 0, 10, 4, 0.05, 0.0125}; // caustics with edges
 // Discs lie flat: where a surface is curved or ribbed within their radius they lose photons.
 static const quality curved = {300000, 60000, 0, 10, 4, 0.015, 0.0};
-static const quality foggy = {30000, 30000, 30000, 16, 1, 0.02, 0.0};
+static const quality foggy = {30000, 30000, 30000, 16, 2, 0.02, 0.0};
 
 static regions take_render(const peer *p, const pm_intersector *world, quality q)
 {
