@@ -33,6 +33,7 @@ typedef struct {
     int first, count; // of the pictures
     double exposure;  // [stops] of all of them
     int x, y;         // top left corner of its heading
+    int right;        // end of its line: of its pictures, or beyond where the heading is longer
 } pm_contact_block;
 
 /// Free with pm_contact_free().

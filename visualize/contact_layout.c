@@ -119,11 +119,14 @@ pm_status pm_contact_lay(pm_contact *sheet)
             sheet->height, PM_FIGURE_SIZE_MAX);
     }
     for (int b = 0; b < sheet->block_count; b++) {
-        const pm_contact_block *block = &sheet->block[b];
+        pm_contact_block *block = &sheet->block[b];
         for (int i = 0; i < block->count; i++) {
             sheet->picture[block->first + i].x = block->x + i * m.pitch;
             sheet->picture[block->first + i].y = block->y + PM_CONTACT_ABOVE;
         }
+        int row = (block->count - 1) * m.pitch + sheet->picture_width;
+        int heading = heading_width(block);
+        block->right = block->x + (heading > row ? heading : row);
     }
     return PM_OK;
 }

@@ -15,18 +15,15 @@ namespace {
 const char lead[] = "Linear light shown in sRGB, clipped to 0..1. Pictures of one scene "
                     "share its exposure [stops].";
 
-/// The scene's name, and at the block's right end the exposure.
-pm_status draw_heading(pm_figure *figure, const pm_contact *sheet,
-                       const pm_contact_block *block)
+/// The scene's name, and at the right end of that line the exposure.
+pm_status draw_heading(pm_figure *figure, const pm_contact_block *block)
 {
     char exposure[32];
-    const pm_contact_picture *last = &sheet->picture[block->first + block->count - 1];
-    double right = last->x + sheet->picture_width;
     double down = PM_CONTACT_HEADING - PM_CONTACT_NOTE; // both stand on one line
     std::snprintf(exposure, sizeof exposure, "%+.1f stops", block->exposure);
     PM_TRY(pm_figure_text(figure, block->scene, block->x, block->y, PM_CONTACT_HEADING,
                           PM_TEXT_STRONG));
-    return pm_figure_text(figure, exposure, right, block->y + down, PM_CONTACT_NOTE,
+    return pm_figure_text(figure, exposure, block->right, block->y + down, PM_CONTACT_NOTE,
                           PM_TEXT_DIM_RIGHT);
 }
 
@@ -54,7 +51,7 @@ pm_status draw(pm_figure *figure, const pm_contact *sheet, const char *title)
                           PM_TEXT_STRONG));
     PM_TRY(pm_figure_text(figure, lead, PM_CONTACT_MARGIN, 62.0, PM_CONTACT_LEAD, PM_TEXT_DIM));
     for (int i = 0; i < sheet->block_count; i++) {
-        PM_TRY(draw_heading(figure, sheet, &sheet->block[i]));
+        PM_TRY(draw_heading(figure, &sheet->block[i]));
     }
     for (int i = 0; i < sheet->picture_count; i++) {
         PM_TRY(draw_picture(figure, sheet, &sheet->picture[i]));

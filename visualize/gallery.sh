@@ -59,11 +59,11 @@ build_up() {
     good="--gather 32 --spp 8"
     picture render lecture one-box.1-hard-shadows $good $bulb --global-photons 0 \
         --caustic-photons 0
-    picture render lecture one-box.2-and-soft-shadows $good --global-photons 0 \
+    picture render lecture one-box.2-soft-shadows $good --global-photons 0 \
         --caustic-photons 0
-    picture render lecture one-box.3-and-caustics $good --global-photons 0
-    picture render lecture one-box.4-and-global-illumination $good
-    picture render lecture one-box.5-and-a-medium $good -D density=0.6
+    picture render lecture one-box.3-caustics $good --global-photons 0
+    picture render lecture one-box.4-indirect-light $good
+    picture render lecture one-box.5-a-medium $good -D density=0.6
 }
 
 lecture() {
@@ -76,14 +76,14 @@ lecture() {
     picture render cornell-diffuse Cornell-box.direct-light $good --only direct
     picture render cornell-diffuse Cornell-box.indirect-light $good --only indirect
     picture render cornell-diffuse Cornell-box.both $good
+    picture render cornell-glossy glossy-reflection.cornell-glossy $good
     picture render sparse projection-map.off $good --projection off
     picture render sparse projection-map.on $good
-    picture render cornell-glossy glossy-reflection.cornell-glossy $good
     picture render ring metal-ring.ring $good
     picture render water caustics.water $good
     picture render sun shafts-of-light.sun $good
     picture render glass-fog caustic-in-fog.glass-fog $good --volume-photons 1000000
-    picture render prism prism.prism $good -r 0.02
+    picture render prism prism.prism $good --caustic-photons 1000000 -r 0.02
     picture render cornell-fog a-medium.photons $good
     picture reference cornell-fog a-medium.path-tracing --spp 64
     lay lecture "The lecture's pictures" "The sheet of the lecture"
