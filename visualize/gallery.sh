@@ -90,10 +90,10 @@ lecture() {
 }
 
 beside() {
-    scene=${SCENE:-cornell-fog}
-    picture render "$scene" "$scene.photons"
-    picture reference "$scene" "$scene.path-tracing" --spp 128
-    lay "beside-$scene" "Photons beside path tracing" "The sheet"
+    name=${SCENE:-cornell-fog}
+    picture render "$name" "$name.photons"
+    picture reference "$name" "$name.path-tracing" --spp 128
+    lay "beside-$name" "Photons beside path tracing" "The sheet"
 }
 
 sheet=
