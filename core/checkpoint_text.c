@@ -2,45 +2,27 @@
 // one of its own.
 #include "checkpoint_text.h"
 
+#include "text.h"
+
 #include <inttypes.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #define FAULTS_ROOM 4096
 
-typedef struct {
-    char *text;
-    size_t length;
-} printer;
-
-#if defined(__GNUC__)
-__attribute__((format(printf, 2, 3)))
-#endif
-static void
-put(printer *p, const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    size_t room = PM_CHECKPOINT_TEXT_ROOM - p->length;
-    int length = vsnprintf(p->text + p->length, room, format, arguments);
-    va_end(arguments);
-    p->length += (size_t)length; // all lines together stay far below the room
-}
-
 /// The shortest of two ways to write a double that is read back as the same.
-static void put_real(printer *p, const char *name, double value)
+static void put_real(pm_text *p, const char *name, double value)
 {
     char text[32];
     snprintf(text, sizeof text, "%.15g", value);
     bool exact = strtod(text, NULL) == value;
-    put(p, "%s %.*g\n", name, exact ? 15 : 17, value);
+    pm_text_put(p, "%s %.*g\n", name, exact ? 15 : 17, value);
 }
 
-static void put_word(printer *p, const char *name, const char *const *words, int which)
+static void put_word(pm_text *p, const char *name, const char *const *words, int which)
 {
-    put(p, "%s %s\n", name, words[which]);
+    pm_text_put(p, "%s %s\n", name, words[which]);
 }
 
 /// FNV-1a over little-endian bytes.
@@ -69,26 +51,26 @@ static uint64_t camera_hash(const pm_camera *camera)
     return add_number(hash, camera->medium);
 }
 
-static void put_photons(printer *p, const pm_render_settings *settings)
+static void put_photons(pm_text *p, const pm_render_settings *settings)
 {
     static const char *const rules[] = {"max", "average"};
     static const char *const on_off[] = {"on", "off"};
-    put(p, "photons %" PRIu64 "\n", settings->total);
-    put(p, "global-photons %" PRIu64 "\n", settings->photons[PM_MAP_GLOBAL]);
-    put(p, "caustic-photons %" PRIu64 "\n", settings->photons[PM_MAP_CAUSTIC]);
-    put(p, "volume-photons %" PRIu64 "\n", settings->photons[PM_MAP_VOLUME]);
+    pm_text_put(p, "photons %" PRIu64 "\n", settings->total);
+    pm_text_put(p, "global-photons %" PRIu64 "\n", settings->photons[PM_MAP_GLOBAL]);
+    pm_text_put(p, "caustic-photons %" PRIu64 "\n", settings->photons[PM_MAP_CAUSTIC]);
+    pm_text_put(p, "volume-photons %" PRIu64 "\n", settings->photons[PM_MAP_VOLUME]);
     put_word(p, "roulette", rules, settings->roulette == PM_ROULETTE_MAX ? 0 : 1);
-    put(p, "max-bounces %" PRIu32 "\n", settings->max_bounces);
+    pm_text_put(p, "max-bounces %" PRIu32 "\n", settings->max_bounces);
     put_word(p, "packing", on_off, settings->unpacked);
     put_word(p, "projection", on_off, settings->everywhere);
 }
 
-static void put_estimate(printer *p, const pm_estimate_settings *estimate)
+static void put_estimate(pm_text *p, const pm_estimate_settings *estimate)
 {
     static const char *const shapes[] = {"disc", "sphere"};
     static const char *const filters[] = {"none", "cone", "gaussian", "epanechnikov"};
     static const char *const constants[] = {"unbiased", "lecture"};
-    put(p, "k %" PRIu32 "\n", estimate->k);
+    pm_text_put(p, "k %" PRIu32 "\n", estimate->k);
     put_real(p, "r", estimate->radius);
     put_word(p, "shape", shapes, (int)estimate->shape);
     put_real(p, "flatness", estimate->flatness);
@@ -96,33 +78,32 @@ static void put_estimate(printer *p, const pm_estimate_settings *estimate)
     put_word(p, "kernel-constants", constants, (int)estimate->constants);
 }
 
-static void put_picture(printer *p, const pm_render_settings *settings)
+static void put_picture(pm_text *p, const pm_render_settings *settings)
 {
     static const char *const direct[] = {"rays", "photons"};
     static const char *const caustics[] = {"map", "global"};
     static const char *const media[] = {"beams", "march"};
     static const char *const off_on[] = {"off", "on"};
     bool all = settings->only == PM_NONE;
-    put(p, "gather %" PRIu32 "\n", settings->light.rays);
-    put(p, "spp %" PRIu32 "\n", settings->light.spp);
-    put(p, "light-samples %" PRIu32 "\n", settings->light.light_samples);
+    pm_text_put(p, "gather %" PRIu32 "\n", settings->light.rays);
+    pm_text_put(p, "spp %" PRIu32 "\n", settings->light.spp);
+    pm_text_put(p, "light-samples %" PRIu32 "\n", settings->light.light_samples);
     put_word(p, "direct", direct, settings->direct_photons);
     put_word(p, "caustics", caustics, settings->light.caustics_global);
     put_word(p, "media", media, settings->light.media == PM_MEDIA_MARCH ? 1 : 0);
     put_real(p, "march-step", settings->light.step);
     put_word(p, "precompute", off_on, settings->precompute);
-    put(p, "only %s\n", all ? "all" : pm_layer_name((pm_layer)settings->only));
+    pm_text_put(p, "only %s\n", all ? "all" : pm_layer_name((pm_layer)settings->only));
 }
 
 size_t pm_checkpoint_text_print(const pm_scene *scene, const pm_render_settings *settings,
                                 char *text)
 {
-    printer p = {0};
-    p.text = text;
-    put(&p, "scene %016" PRIx64 "\n", scene->hash);
-    put(&p, "camera %016" PRIx64 "\n", camera_hash(&scene->camera));
-    put(&p, "size %dx%d\n", scene->camera.width, scene->camera.height);
-    put(&p, "seed %" PRIu32 "\n", settings->seed);
+    pm_text p = {.start = text, .room = PM_CHECKPOINT_TEXT_ROOM};
+    pm_text_put(&p, "scene %016" PRIx64 "\n", scene->hash);
+    pm_text_put(&p, "camera %016" PRIx64 "\n", camera_hash(&scene->camera));
+    pm_text_put(&p, "size %dx%d\n", scene->camera.width, scene->camera.height);
+    pm_text_put(&p, "seed %" PRIu32 "\n", settings->seed);
     put_photons(&p, settings);
     put_estimate(&p, &settings->light.estimate);
     put_picture(&p, settings);

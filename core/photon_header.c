@@ -1,9 +1,10 @@
 // Lines in a fixed order; floating point in hexadecimal, so that no bit is lost.
 #include "photon_header.h"
 
+#include "text.h"
+
 #include <inttypes.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -23,77 +24,61 @@ size_t pm_photon_header_row(const pm_photon_header *header)
     return row;
 }
 
-typedef struct {
-    char *text;
-    size_t length;
-} printer;
-
-#if defined(__GNUC__)
-__attribute__((format(printf, 2, 3)))
-#endif
-static void
-put(printer *p, const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    int length =
-        vsnprintf(p->text + p->length, PM_PHOTON_HEADER_ROOM - p->length, format, arguments);
-    va_end(arguments);
-    p->length += (size_t)length; // all lines together stay far below the room
-}
-
-static void put_comments(printer *p, const pm_photon_header *header)
+static void put_comments(pm_text *p, const pm_photon_header *header)
 {
     const pm_photon_map *map = &header->map;
-    put(p, "comment map %s\n", map_names[map->kind]);
-    put(p, "comment packing %s\n", map->unpacked ? "off" : "on");
-    put(p, "comment balanced %s\n", map->balanced ? "yes" : "no");
-    put(p, "comment scaled %s\n", map->scaled ? "yes" : "no");
-    put(p, "comment emitted %" PRIu64 "\n", map->emitted);
-    put(p, "comment scale %a\n", map->scale);
-    put(p, "comment refused %" PRIu64 "\n", map->refused);
-    put(p, "comment clamped %" PRIu64 "\n", map->clamped);
-    put(p, "comment vanished %" PRIu64 "\n", map->vanished);
-    put(p, "comment seed %" PRIu32 "\n", header->info.seed);
-    put(p, "comment scene %016" PRIx64 "\n", header->info.scene_hash);
-    put(p, "comment center %a %a %a\n", header->info.center.x, header->info.center.y,
-        header->info.center.z);
-    put(p, "comment crc32 %08" PRIx32 "\n", header->crc);
+    pm_text_put(p, "comment map %s\n", map_names[map->kind]);
+    pm_text_put(p, "comment packing %s\n", map->unpacked ? "off" : "on");
+    pm_text_put(p, "comment balanced %s\n", map->balanced ? "yes" : "no");
+    pm_text_put(p, "comment scaled %s\n", map->scaled ? "yes" : "no");
+    pm_text_put(p, "comment emitted %" PRIu64 "\n", map->emitted);
+    pm_text_put(p, "comment scale %a\n", map->scale);
+    pm_text_put(p, "comment refused %" PRIu64 "\n", map->refused);
+    pm_text_put(p, "comment clamped %" PRIu64 "\n", map->clamped);
+    pm_text_put(p, "comment vanished %" PRIu64 "\n", map->vanished);
+    pm_text_put(p, "comment seed %" PRIu32 "\n", header->info.seed);
+    pm_text_put(p, "comment scene %016" PRIx64 "\n", header->info.scene_hash);
+    pm_text_put(p, "comment center %a %a %a\n", header->info.center.x, header->info.center.y,
+                header->info.center.z);
+    pm_text_put(p, "comment crc32 %08" PRIx32 "\n", header->crc);
 }
 
-static void put_properties(printer *p, const pm_photon_header *header)
+static void put_properties(pm_text *p, const pm_photon_header *header)
 {
-    put(p, "property float x\nproperty float y\nproperty float z\n");
-    put(p, "property uchar power_r\nproperty uchar power_g\nproperty uchar power_b\n"
-           "property uchar power_e\n");
-    put(p, "property uchar theta\nproperty uchar phi\nproperty ushort flags\n");
+    pm_text_put(p, "property float x\nproperty float y\nproperty float z\n");
+    pm_text_put(p, "property uchar power_r\nproperty uchar power_g\nproperty uchar power_b\n"
+                   "property uchar power_e\n");
+    pm_text_put(p, "property uchar theta\nproperty uchar phi\nproperty ushort flags\n");
     if (header->map.unpacked) {
-        put(p, "property float exact_r\nproperty float exact_g\nproperty float exact_b\n");
-        put(p, "property float exact_dx\nproperty float exact_dy\nproperty float exact_dz\n");
+        pm_text_put(p,
+                    "property float exact_r\nproperty float exact_g\nproperty float exact_b\n");
+        pm_text_put(
+            p, "property float exact_dx\nproperty float exact_dy\nproperty float exact_dz\n");
     }
     if (header->has_bounce) {
-        put(p, "property uint bounce\n");
+        pm_text_put(p, "property uint bounce\n");
     }
     if (header->has_light) {
-        put(p, "property uint light\n");
+        pm_text_put(p, "property uint light\n");
     }
     if (header->has_path) {
-        put(p, "property uint path_low\nproperty uint path_high\n"); // PLY has no 64 bits
+        pm_text_put(p,
+                    "property uint path_low\nproperty uint path_high\n"); // PLY has no 64 bits
     }
     if (header->has_normal) {
-        put(p, "property float nx\nproperty float ny\nproperty float nz\n");
+        pm_text_put(p, "property float nx\nproperty float ny\nproperty float nz\n");
     }
 }
 
 size_t pm_photon_header_print(const pm_photon_header *header, char *text)
 {
-    printer p = {0};
-    p.text = text;
-    put(&p, "ply\nformat binary_little_endian 1.0\n" MAGIC "%d\n", PM_PHOTON_FILE_VERSION);
+    pm_text p = {.start = text, .room = PM_PHOTON_HEADER_ROOM};
+    pm_text_put(&p, "ply\nformat binary_little_endian 1.0\n" MAGIC "%d\n",
+                PM_PHOTON_FILE_VERSION);
     put_comments(&p, header);
-    put(&p, "element vertex %" PRIu32 "\n", header->map.count);
+    pm_text_put(&p, "element vertex %" PRIu32 "\n", header->map.count);
     put_properties(&p, header);
-    put(&p, "end_header\n");
+    pm_text_put(&p, "end_header\n");
     return p.length;
 }
 

@@ -1,22 +1,12 @@
 // What the reader makes of media: their values, the sides of shapes, what it notes, and what
 // depends on them.
 #include "caps.h"
+#include "scene_media_words.h"
 #include "scene_text.h"
 #include "test.h"
 
 #include <stdio.h>
 #include <string.h>
-
-#define FOG "<medium type='homogeneous' id='fog'><float name='sigma_t' value='0.5'/></medium>"
-#define SMOKE "<medium type='homogeneous' id='smoke'><float name='sigma_t' value='3'/></medium>"
-#define IN(id) "<ref name='interior' id='" id "'/>"
-#define OUT(id) "<ref name='exterior' id='" id "'/>"
-#define FLIP "<boolean name='flip_normals' value='true'/>"
-
-/// A sphere with these sides, given as printf's text, at x, 0, 0.
-#define BALL(x, radius, sides)                                                                 \
-    "<shape type='sphere'><point name='center' value='" x                                      \
-    " 0 0'/><float name='radius' value='" radius "'/>" sides "</shape>"
 
 static void check_medium(const pm_medium *medium, double sigma_t, pm_spectrum albedo, double g)
 {

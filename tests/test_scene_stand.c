@@ -1,22 +1,12 @@
 // In which medium the camera and each light stand: found from the shapes that part media, held
 // against distances to their centres.
+#include "scene_media_words.h"
 #include "scene_text.h"
 #include "test.h"
 
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
-
-#define FOG "<medium type='homogeneous' id='fog'><float name='sigma_t' value='0.5'/></medium>"
-#define SMOKE "<medium type='homogeneous' id='smoke'><float name='sigma_t' value='3'/></medium>"
-#define IN(id) "<ref name='interior' id='" id "'/>"
-#define OUT(id) "<ref name='exterior' id='" id "'/>"
-#define FLIP "<boolean name='flip_normals' value='true'/>"
-
-/// A sphere with these sides, given as printf's text, at x, 0, 0.
-#define BALL(x, radius, sides)                                                                 \
-    "<shape type='sphere'><point name='center' value='" x                                      \
-    " 0 0'/><float name='radius' value='" radius "'/>" sides "</shape>"
 
 /// The medium of a camera at x, 0, 0 among these shapes.
 static int camera_at(double x, const char *shapes)
