@@ -99,7 +99,8 @@ static void put_picture(pm_text *p, const pm_render_settings *settings)
 size_t pm_checkpoint_text_print(const pm_scene *scene, const pm_render_settings *settings,
                                 char *text)
 {
-    pm_text p = {.start = text, .room = PM_CHECKPOINT_TEXT_ROOM};
+    pm_text p = {.room = PM_CHECKPOINT_TEXT_ROOM};
+    p.start = text;
     pm_text_put(&p, "scene %016" PRIx64 "\n", scene->hash);
     pm_text_put(&p, "camera %016" PRIx64 "\n", camera_hash(&scene->camera));
     pm_text_put(&p, "size %dx%d\n", scene->camera.width, scene->camera.height);

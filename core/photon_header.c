@@ -72,7 +72,8 @@ static void put_properties(pm_text *p, const pm_photon_header *header)
 
 size_t pm_photon_header_print(const pm_photon_header *header, char *text)
 {
-    pm_text p = {.start = text, .room = PM_PHOTON_HEADER_ROOM};
+    pm_text p = {.room = PM_PHOTON_HEADER_ROOM};
+    p.start = text;
     pm_text_put(&p, "ply\nformat binary_little_endian 1.0\n" MAGIC "%d\n",
                 PM_PHOTON_FILE_VERSION);
     put_comments(&p, header);
