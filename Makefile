@@ -63,7 +63,8 @@ GSL_LIBS := -lgsl -lgslcblas
 # VTK has no pkg-config file in Debian 12.
 VTK_MODULES := IOXML IOImage RenderingAnnotation RenderingOpenGL2 RenderingFreeType \
   InteractionStyle RenderingUI RenderingCore FiltersSources CommonColor CommonExecutionModel \
-  CommonTransforms CommonDataModel CommonMath CommonCore sys
+  CommonTransforms CommonDataModel CommonMath CommonCore ChartsCore ViewsContext2D ViewsCore \
+  RenderingContextOpenGL2 RenderingContext2D sys
 VTK_LIBS := -Wl,--as-needed $(VTK_MODULES:%=-lvtk%-$(VTK_SUFFIX)) -lGLEW -lEGL -ldl
 
 # A make below this one, with as many jobs as there are cores unless told otherwise.
@@ -80,8 +81,9 @@ WARN_C += -Wduplicated-cond -Wduplicated-branches -Wlogical-op -Wformat-signedne
 endif
 SANITIZE := $(if $(SAN),-fsanitize=address -fsanitize=undefined -fno-sanitize-recover=all \
   -fno-omit-frame-pointer)
+ROOMS := $(addprefix visualize/,views data figure)
 # No contraction: clang would fuse multiply and add where gcc does not, and pictures differ.
-COMMON := -ffp-contract=off -fopenmp -Icore $(SANITIZE)
+COMMON := -ffp-contract=off -fopenmp -Icore $(ROOMS:%=-I%) $(SANITIZE)
 SPEAK_C := -std=c17 -D_XOPEN_SOURCE=700 $(COMMON) $(PART_CFLAGS)
 SPEAK_CXX := -std=c++17 $(COMMON) -isystem $(VTK_INCLUDE)
 STRICTNESS := $(if $(WERROR),-Werror) -MMD -MP
@@ -97,8 +99,9 @@ tell = $(if $(SHOW),,@echo '$(1)')
 
 objects = $(patsubst %,$(BUILD)/%.o,$(basename $(1)))
 CORE := $(call objects,$(wildcard core/*.c))
-VISUALIZE := $(call objects,$(filter-out visualize/view.c,$(wildcard visualize/*.c)))
-VISUALIZE_VTK := $(call objects,$(wildcard visualize/*.cc))
+# What needs no VTK, for the tests; and what calls it.
+VISUALIZE := $(call objects,$(filter-out visualize/views/view%,$(wildcard $(ROOMS:%=%/*.c))))
+VIEWS := $(call objects,$(wildcard visualize/views/view*.c $(ROOMS:%=%/*.cc)))
 RUNNER := $(call objects,$(wildcard tests/runner*.c))
 TESTS := $(filter-out $(RUNNER),$(call objects,$(wildcard tests/*.c)))
 BENCH_PROGRAMS := $(patsubst tests/bench/%.c,$(BUILD)/tests/bench/%,$(wildcard tests/bench/*.c))
@@ -116,7 +119,7 @@ MAIN_compare := labs/07_rendering/compare
 LAB_PROGRAMS := $(foreach p,emission tracing storage balancing radiance filtering render \
   reference compare,\
   $(if $(wildcard $(MAIN_$(p)).c),$(p)))
-VIEW := $(if $(VTK_INCLUDE),$(if $(wildcard visualize/view.c),$(BIN)/view))
+VIEW := $(if $(VTK_INCLUDE),$(BIN)/view)
 PROGRAMS := $(LAB_PROGRAMS:%=$(BIN)/%) $(VIEW)
 
 all: $(PROGRAMS) ## build the programs into build/bin
@@ -127,7 +130,7 @@ $(LAB_PROGRAMS:%=$(BIN)/%): $(BIN)/%: $(BUILD)/$$(MAIN_%).o $(CORE)
 	$(call tell,link $@)
 	$(HIDE)$(LINK) -o $@ $^ $(PART_LIBS)
 
-$(BIN)/view: $(BUILD)/visualize/view.o $(VISUALIZE) $(VISUALIZE_VTK) $(CORE)
+$(BIN)/view: $(BUILD)/visualize/view.o $(VIEWS) $(VISUALIZE) $(CORE)
 	@mkdir -p $(@D)
 	$(call tell,link $@)
 	$(HIDE)$(LINK_CXX) -o $@ $^ $(VTK_LIBS) $(PART_LIBS)

@@ -44,6 +44,8 @@ pm_options pm_options_defaults(void)
         .spp = 4,
         .passes = 16,
         .only = -1,
+        .by = -1,
+        .frames = 24,
         .runs = 1,
         .depth = 5,
         .paths = 150,

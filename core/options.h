@@ -16,6 +16,15 @@
 
 #define PM_OPTIONS_REPEAT_MAX 64 // times that -D or --map may be given
 
+/// What the colours of a picture stand for, in the order of the words of --by.
+typedef enum {
+    PM_BY_POWER,
+    PM_BY_MAP,
+    PM_BY_BOUNCE,
+    PM_BY_LIGHT,
+    PM_BY_EVENT,
+} pm_by;
+
 /// What a command line said, with the defaults where it said nothing. Texts point into argv.
 typedef struct {
     const char *const *positional; // SCENE, or what the program's usage names
@@ -75,6 +84,10 @@ typedef struct {
     const char *report;
     const char *png;
     const char *dump;
+    const char *cells;      // emission --cells
+    const char *visits;     // balancing --visits
+    const char *gathered;   // radiance, filtering --gathered
+    const char *curves;     // filtering --curves
     const char *check_file; // storage --check FILE
     const char *map[PM_OPTIONS_REPEAT_MAX];
     int map_count;
@@ -85,6 +98,12 @@ typedef struct {
     const char *scene; // that the data came from
     uint32_t depth;    // levels of a tree
     uint32_t paths;    // drawn at most
+    int by;            // what colours stand for: a pm_by; -1: the kind's own
+    const char *light; // id of the light that is looked at; NULL: all
+    uint32_t frames;   // of a film; 0: not given
+    double truth;      // --true: what an estimate should be; 0: not given
+    bool display_x;    // --display x
+    bool interactive;
 
     // compare
     bool no_mask, same;

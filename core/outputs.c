@@ -13,7 +13,7 @@ typedef struct {
     const char *path; // NULL: not given
 } output;
 
-enum { OUTPUTS = 6 };
+enum { OUTPUTS = 10 };
 
 typedef struct {
     const pm_options *options;
@@ -112,6 +112,10 @@ pm_status pm_outputs_check(const pm_options *options, const char *program)
                            {"--png", options->png},
                            {"--map", options->difference},
                            {"--dump", options->dump},
+                           {"--cells", options->cells},
+                           {"--visits", options->visits},
+                           {"--gathered", options->gathered},
+                           {"--curves", options->curves},
                            {"--report", options->report}}};
     pm_status status = check_checkpoint(&c);
     if (status != PM_OK) {

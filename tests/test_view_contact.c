@@ -274,7 +274,7 @@ static void settings_that_mean_nothing_are_refused(void)
 {
     const char *path = write_picture("a.exr", SIDE, 1.0);
     check_refused("{S} --size 300x300", path, "contact takes no --size");
-    check_refused("{S} --scene scenes/cornell-diffuse.xml", path, "contact takes no --scene");
+    check_refused("{S} --scene scenes/cornell-diffuse.xml", path, "unknown option --scene");
 }
 
 PM_TESTS({"view_contact.1", "pictures stand on a sheet pixel for pixel, in sRGB",

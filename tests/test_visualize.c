@@ -6,10 +6,10 @@
 #include "store.h"
 #include "test.h"
 
-#include "../visualize/csv.h"
-#include "../visualize/photon_cloud.h"
-#include "../visualize/tree_split.h"
-#include "../visualize/viewpoint.h"
+#include "csv.h"
+#include "photon_cloud.h"
+#include "tree_split.h"
+#include "viewpoint.h"
 
 #include <stdio.h>
 

@@ -1,6 +1,6 @@
 // The scene, faintly: what is drawn on it has to stay the brightest thing in the picture.
+#include "draw_scene.h"
 #include "core.hh"
-#include "draw.h"
 #include "drawing.hh"
 #include "figure.hh"
 

@@ -33,6 +33,14 @@ typedef struct {
 /// back.
 pm_viewpoint pm_viewpoint_of(const pm_scene *scene, int width, int height);
 
+/// The same for a panel, which keeps nothing free but a narrow border.
+pm_viewpoint pm_viewpoint_fill(const pm_scene *scene, int width, int height);
+
+/// A view of the box `low` to `high` [m, centred] along `forward`, for a panel.
+/// @param forward  unit, not along `up`
+pm_viewpoint pm_viewpoint_box(pm_vec3 low, pm_vec3 high, pm_vec3 forward, pm_vec3 up, int width,
+                              int height);
+
 /// Where `point` lands, in pixels from the top left corner of the picture; false behind the
 /// camera.
 bool pm_viewpoint_project(const pm_viewpoint *viewpoint, pm_vec3 point, double *x, double *y);

@@ -1,7 +1,7 @@
 // Split planes as translucent faces with outlines. Depth fades both, so that the first splits
 // stand out and the small cells of the last ones do not bury them.
+#include "draw_tree.h"
 #include "core.hh"
-#include "draw.h"
 #include "drawing.hh"
 #include "figure.hh"
 

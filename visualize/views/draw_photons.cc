@@ -1,7 +1,7 @@
 // Photons as plain GL points: a million take a second, where spheres or splats take minutes or
 // burn out. A point shows its photon's hue and power; how dense they lie shows the irradiance.
+#include "draw_photons.h"
 #include "core.hh"
-#include "draw.h"
 #include "figure.hh"
 
 #include <vtkActor.h>

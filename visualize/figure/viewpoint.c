@@ -14,25 +14,37 @@ typedef struct {
     double low[2], high[2]; // on the plane at distance 1
 } extent;
 
+typedef struct {
+    pm_vec3 low, high;
+} box;
+
+// Parts of a picture that are kept free.
+typedef struct {
+    double top, bottom, left, right;
+} margins;
+
+static const margins of_figure = {PM_VIEWPOINT_TOP, PM_VIEWPOINT_BOTTOM, PM_VIEWPOINT_LEFT,
+                                  PM_VIEWPOINT_RIGHT};
+static const margins of_panel = {0.03, 0.03, 0.03, 0.03};
+
 static pm_vec3 local(const pm_viewpoint *v, pm_vec3 point)
 {
     pm_vec3 to = pm_vec_sub(point, v->position);
     return pm_vec(pm_vec_dot(to, v->right), pm_vec_dot(to, v->up), pm_vec_dot(to, v->forward));
 }
 
-static pm_vec3 corner(const pm_scene *scene, int index)
+static pm_vec3 corner(const box *b, int index)
 {
-    return pm_vec(index & 1 ? scene->high.x : scene->low.x,
-                  index & 2 ? scene->high.y : scene->low.y,
-                  index & 4 ? scene->high.z : scene->low.z);
+    return pm_vec(index & 1 ? b->high.x : b->low.x, index & 2 ? b->high.y : b->low.y,
+                  index & 4 ? b->high.z : b->low.z);
 }
 
-/// False when a corner of the bounds is behind the camera or far outside of a usable picture.
-static bool measure(const pm_viewpoint *v, const pm_scene *scene, extent *out)
+/// False when a corner of the box is behind the camera or far outside of a usable picture.
+static bool measure(const pm_viewpoint *v, const box *b, extent *out)
 {
     *out = (extent){{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
     for (int i = 0; i < 8; i++) {
-        pm_vec3 at = local(v, corner(scene, i));
+        pm_vec3 at = local(v, corner(b, i));
         if (!(at.z > 0.0)) {
             return false;
         }
@@ -60,31 +72,56 @@ static void orient(pm_viewpoint *v, const pm_scene *scene)
     v->position = pm_vec_scale(v->forward, -DISTANCE * scene->radius);
 }
 
-static void fit(pm_viewpoint *v, const extent *e)
+static void fit(pm_viewpoint *v, const extent *e, const margins *m)
 {
     double aspect = (double)v->width / v->height;
-    double free_x = 2.0 * (1.0 - PM_VIEWPOINT_LEFT - PM_VIEWPOINT_RIGHT);
-    double free_y = 2.0 * (1.0 - PM_VIEWPOINT_TOP - PM_VIEWPOINT_BOTTOM);
+    double free_x = 2.0 * (1.0 - m->left - m->right);
+    double free_y = 2.0 * (1.0 - m->top - m->bottom);
     double wide = (e->high[0] - e->low[0]) / (free_x * aspect);
     double tall = (e->high[1] - e->low[1]) / free_y;
     v->tan_y = wide > 0.0 || tall > 0.0 ? fmax(wide, tall) : TAN_MOST;
     v->tan_x = v->tan_y * aspect;
-    v->shift_x =
-        (e->low[0] + e->high[0]) / (2.0 * v->tan_x) - (PM_VIEWPOINT_LEFT - PM_VIEWPOINT_RIGHT);
-    v->shift_y =
-        (e->low[1] + e->high[1]) / (2.0 * v->tan_y) - (PM_VIEWPOINT_BOTTOM - PM_VIEWPOINT_TOP);
+    v->shift_x = (e->low[0] + e->high[0]) / (2.0 * v->tan_x) - (m->left - m->right);
+    v->shift_y = (e->low[1] + e->high[1]) / (2.0 * v->tan_y) - (m->bottom - m->top);
+}
+
+static pm_viewpoint of_scene(const pm_scene *scene, int width, int height, const margins *m)
+{
+    pm_viewpoint v = {.width = width, .height = height};
+    box bounds = {scene->low, scene->high};
+    orient(&v, scene);
+    extent e;
+    if (!measure(&v, &bounds, &e)) {
+        v.position = pm_vec_scale(v.forward, -DISTANCE * scene->radius);
+        measure(&v, &bounds, &e);
+    }
+    fit(&v, &e, m);
+    return v;
 }
 
 pm_viewpoint pm_viewpoint_of(const pm_scene *scene, int width, int height)
 {
-    pm_viewpoint v = {.width = width, .height = height};
-    orient(&v, scene);
+    return of_scene(scene, width, height, &of_figure);
+}
+
+pm_viewpoint pm_viewpoint_fill(const pm_scene *scene, int width, int height)
+{
+    return of_scene(scene, width, height, &of_panel);
+}
+
+pm_viewpoint pm_viewpoint_box(pm_vec3 low, pm_vec3 high, pm_vec3 forward, pm_vec3 up, int width,
+                              int height)
+{
+    pm_viewpoint v = {.width = width, .height = height, .forward = forward};
+    box bounds = {low, high};
+    pm_vec3 middle = pm_vec_scale(pm_vec_add(low, high), 0.5);
+    double radius = 0.5 * pm_vec_length(pm_vec_sub(high, low));
+    v.right = pm_vec_normalize(pm_vec_cross(forward, up));
+    v.up = pm_vec_cross(v.right, forward);
+    v.position = pm_vec_along(middle, forward, -DISTANCE * radius);
     extent e;
-    if (!measure(&v, scene, &e)) {
-        v.position = pm_vec_scale(v.forward, -DISTANCE * scene->radius);
-        measure(&v, scene, &e);
-    }
-    fit(&v, &e);
+    measure(&v, &bounds, &e);
+    fit(&v, &e, &of_panel);
     return v;
 }
 

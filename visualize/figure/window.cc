@@ -4,6 +4,8 @@
 // versions find EGL by themselves.
 #include "window.hh"
 
+#include "window.h"
+
 #include <vtkVersion.h>
 #include <vtkVersionMacros.h>
 
@@ -154,11 +156,18 @@ bool x_answers()
     return display != nullptr;
 }
 
+bool on_x_display = false; // chosen once, before the first window
+
 } // namespace
+
+void pm_window_choose(bool x_display)
+{
+    on_x_display = x_display;
+}
 
 pm_status pm_window_open(int width, int height, vtkSmartPointer<vtkRenderWindow> *window)
 {
-    vtkSmartPointer<vtkRenderWindow> opened = open_without_display();
+    vtkSmartPointer<vtkRenderWindow> opened = on_x_display ? nullptr : open_without_display();
     if (opened == nullptr && x_answers()) {
         opened = vtkSmartPointer<vtkRenderWindow>::New();
     }

@@ -1,7 +1,7 @@
 // Photon paths: a stretch has the colour of the event that it starts from, an event is a dot of
 // its own colour. So one legend serves both, and a path can be followed from dot to dot.
+#include "draw_paths.h"
 #include "core.hh"
-#include "draw.h"
 #include "drawing.hh"
 #include "figure.hh"
 

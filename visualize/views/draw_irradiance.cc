@@ -1,8 +1,8 @@
 // A heat map with a logarithmic scale, on its surface and once more face on in the right
 // column, turned so that right and up are roughly the same in both. Irradiance 0 has no
 // logarithm: such points are drawn in a grey that is not on the scale, and the legend says so.
+#include "draw_irradiance.h"
 #include "core.hh"
-#include "draw.h"
 #include "drawing.hh"
 #include "figure.hh"
 
@@ -111,7 +111,7 @@ pm_status add_inset(pm_figure *figure, const pm_grid *grid, const value_range &r
 {
     PM_TRY(pm_figure_legend(figure, "the same, face on", nullptr, 0));
     facing f = turn(figure, grid);
-    double room_x = figure->viewpoint.width - figure->column_left() - figure->pixels(24.0);
+    double room_x = figure->width - figure->column_left() - figure->pixels(24.0);
     double room_y = figure->column_top - figure->pixels(24.0);
     if (!(f.width > 0.0 && f.height > 0.0 && room_y > 0.0)) {
         return PM_OK;

@@ -37,8 +37,8 @@ pm_status pm_figure_picture(pm_figure *figure, const uint8_t *pixels, int width,
         mapper->SetColorLevel(127.5);
         vtkNew<vtkActor2D> actor;
         actor->SetMapper(mapper);
-        actor->SetPosition(x, figure->viewpoint.height - y - height);
-        figure->renderer->AddActor2D(actor);
+        actor->SetPosition(x, figure->height - y - height);
+        figure->page->AddActor2D(actor);
         return PM_OK;
     });
 }

@@ -34,7 +34,7 @@ vtkTextProperty *write_pixels(pm_figure *figure, const std::string &text, double
     style->SetColor(0.93, 0.94, 0.96);
     style->SetVerticalJustificationToTop();
     style->SetLineSpacing(1.25);
-    figure->renderer->AddActor2D(actor);
+    figure->page->AddActor2D(actor);
     return style;
 }
 
@@ -138,13 +138,21 @@ std::vector<tick> choose_ticks(const pm_scale *s)
     return ticks;
 }
 
+/// A rectangle given by its top left corner, from the figure's bottom left.
+pm_rect on_page(const pm_figure *figure, double x, double top, double width, double height)
+{
+    return {static_cast<int>(std::lround(x)),
+            static_cast<int>(std::lround(figure->height - top)),
+            static_cast<int>(std::lround(width)), static_cast<int>(std::lround(height))};
+}
+
 } // namespace
 
 pm_status pm_figure_title(pm_figure *figure, const char *title, const char *note)
 {
     return pm_figure_guard("a title", [&] {
-        double x = figure->viewpoint.width * PM_VIEWPOINT_LEFT;
-        double top = figure->viewpoint.height - figure->pixels(20.0);
+        double x = figure->width * PM_VIEWPOINT_LEFT;
+        double top = figure->height - figure->pixels(20.0);
         write(figure, title, x, top, title_size)->BoldOn();
         write(figure, note, x, top - figure->pixels(42.0), note_size)
             ->SetColor(0.72, 0.75, 0.8);
@@ -193,6 +201,8 @@ pm_status pm_figure_scale(pm_figure *figure, const pm_scale *scale)
                 ->SetVerticalJustificationToCentered();
         }
         pm_figure_overlay(figure, bar.data(), figure->pixels(1.5));
+        figure->scales.push_back({scale->heading, scale->low, scale->high, scale->logarithmic,
+                                  on_page(figure, x, top, w, height)});
         figure->column_top = top - height - figure->pixels(34.0);
         return PM_OK;
     });
@@ -204,8 +214,9 @@ pm_status pm_figure_mark(pm_figure *figure, pm_vec3 at, const char *text)
         double x = 0.0;
         double y = 0.0;
         if (pm_viewpoint_project(&figure->viewpoint, at, &x, &y)) {
+            const pm_rect &panel = figure->panels.back().where;
             vtkTextProperty *style =
-                write(figure, text, x, figure->viewpoint.height - y, mark_size);
+                write(figure, text, panel.x + x, figure->height - panel.y - y, mark_size);
             style->SetColor(0.85, 0.87, 0.92);
             style->SetBackgroundColor(0.06, 0.07, 0.1);
             style->SetBackgroundOpacity(0.8);
@@ -220,8 +231,7 @@ pm_status pm_figure_text(pm_figure *figure, const char *text, double x, double y
                          pm_text_look look)
 {
     return pm_figure_guard("a line of text", [&] {
-        vtkTextProperty *style =
-            write_pixels(figure, text, x, figure->viewpoint.height - y, size);
+        vtkTextProperty *style = write_pixels(figure, text, x, figure->height - y, size);
         style->SetBold(look == PM_TEXT_STRONG);
         if (look == PM_TEXT_DIM || look == PM_TEXT_DIM_RIGHT) {
             style->SetColor(0.72, 0.75, 0.8);
@@ -231,4 +241,10 @@ pm_status pm_figure_text(pm_figure *figure, const char *text, double x, double y
         }
         return PM_OK;
     });
+}
+
+pm_status pm_figure_caption(pm_figure *figure, const pm_rect *under, const char *text)
+{
+    return pm_figure_text(figure, text, under->x, under->y - figure->pixels(line_height),
+                          figure->pixels(text_size), PM_TEXT_STRONG);
 }

@@ -1,0 +1,21 @@
+// Photon paths as lines from event to event.
+#ifndef PM_DRAW_PATHS_H
+#define PM_DRAW_PATHS_H
+
+#include "figure.h"
+#include "figure_data.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// `most` of the paths at even steps: each stretch in the colour of the event it starts from,
+/// each event a dot.
+/// @param drawn  [out] paths drawn
+pm_status pm_draw_paths(pm_figure *figure, const pm_path_set *paths, uint64_t most,
+                        uint64_t *drawn);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
