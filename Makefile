@@ -41,6 +41,9 @@ libjansson-dev    include/jansson.h                  all      reports (JSON)
 libgsl-dev        include/gsl/gsl_cdf.h              tests    statistics, in the test programs only
 g++               bin:g++                            view     compiles the files that call VTK
 libvtk9-dev       include/vtk-9*                     view     pictures of photons, paths and trees
+libwebp-dev       include/webp/mux.h                 view     small pictures and films (WebP)
+xvfb              bin:Xvfb                           tests    a display for the windows of `view`
+xdotool           bin:xdotool                        tests    keys and mouse for these windows
 libegl-dev        include/EGL/egl.h                  view     draws without a display
 libgl1-mesa-dri   lib/*/dri/swrast_dri.so,lib/*/libgallium-*.so view draws without a graphics card
 clang             bin:clang                          check    the second compiler
@@ -65,7 +68,8 @@ VTK_MODULES := IOXML IOImage RenderingAnnotation RenderingOpenGL2 RenderingFreeT
   InteractionStyle RenderingUI RenderingCore FiltersSources CommonColor CommonExecutionModel \
   CommonTransforms CommonDataModel CommonMath CommonCore ChartsCore ViewsContext2D ViewsCore \
   RenderingContextOpenGL2 RenderingContext2D sys
-VTK_LIBS := -Wl,--as-needed $(VTK_MODULES:%=-lvtk%-$(VTK_SUFFIX)) -lGLEW -lEGL -ldl
+VTK_LIBS := -Wl,--as-needed $(VTK_MODULES:%=-lvtk%-$(VTK_SUFFIX)) -lGLEW -lEGL -ldl \
+  -lwebp -lwebpmux
 
 # A make below this one, with as many jobs as there are cores unless told otherwise.
 AGAIN = $(MAKE) --no-print-directory $(if $(findstring -j,$(MAKEFLAGS)),,-j$(JOBS))

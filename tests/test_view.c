@@ -27,7 +27,8 @@ static pm_seen look(const char *kind, const char *file, const char *option)
 static pm_test_ran run_view(const char *kind, const char *file, const char *option)
 {
     char whole[512];
-    snprintf(whole, sizeof whole, "%s -o %s", line(kind, option), pm_command_path("out.png"));
+    snprintf(whole, sizeof whole, "%s -o %s %s", line(kind, NULL), pm_command_path("out.png"),
+             option != NULL ? option : "");
     return pm_command_run(whole, file, pm_room_scene());
 }
 
@@ -206,7 +207,7 @@ static void bad_usage_is_refused(void)
         const char *option, *part;
     } bad[] = {{"--depth=3", "unknown option --depth; the nearest known one is --paths"},
                {"--paths=-3", "--paths must be a whole number"},
-               {"--scene", "--scene needs a value"},
+               {"--title", "--title needs a value"},
                {"--size=20x20", "--size"},
                {"--output=x", "--output"}};
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {

@@ -53,5 +53,6 @@ json_t *pm_figure_json(const pm_figure *figure, pm_vec3 center)
     for (const pm_drawn_chart &chart : figure->charts) {
         json_array_append_new(charts, chart_json(chart));
     }
-    return json_pack("{s:[i,i],s:o,s:o,s:o}", "size", figure->width, figure->height, "panels", panels, "scales", scales, "charts", charts);
+    return json_pack("{s:[i,i],s:o,s:o,s:o}", "size", figure->width, figure->height, "panels",
+                     panels, "scales", scales, "charts", charts);
 }
