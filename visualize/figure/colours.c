@@ -17,6 +17,13 @@ static const pm_colour viridis[STOPS] = {
     {122, 209, 81}, {189, 223, 38}, {253, 231, 37},
 };
 
+// As dark at one end as at the other, so that neither sign looks the stronger.
+static const pm_colour blue_orange[STOPS] = {
+    {0, 70, 138},    {30, 108, 176},  {88, 150, 204},  {148, 190, 224},
+    {204, 222, 237}, {245, 245, 245}, {252, 220, 184}, {247, 187, 116},
+    {237, 147, 54},  {208, 106, 14},  {152, 70, 0},
+};
+
 pm_colour pm_colour_named(pm_colour_name name)
 {
     static const pm_colour named[] = {
@@ -56,6 +63,11 @@ pm_colour pm_colour_inferno(double t)
 pm_colour pm_colour_viridis(double t)
 {
     return look_up(viridis, t);
+}
+
+pm_colour pm_colour_diverging(double t)
+{
+    return look_up(blue_orange, t);
 }
 
 pm_colour pm_colour_linear(double r, double g, double b)

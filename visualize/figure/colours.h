@@ -1,5 +1,5 @@
 // Colours that everybody can tell apart: the Okabe-Ito set for kinds of things, two sequential
-// maps for amounts. All are 8-bit sRGB.
+// maps for amounts, one for what is too little or too much. All are 8-bit sRGB.
 // @source Okabe and Ito, "Color Universal Design", 2008; matplotlib's inferno and viridis
 #ifndef PM_COLOURS_H
 #define PM_COLOURS_H
@@ -32,6 +32,9 @@ pm_colour pm_colour_named(pm_colour_name name);
 /// own.
 pm_colour pm_colour_inferno(double t);
 pm_colour pm_colour_viridis(double t);
+
+/// Blue at 0, white at 0.5, orange at 1: too little, right, too much. Beyond the ends as above.
+pm_colour pm_colour_diverging(double t);
 
 /// Linear red, green, blue in [0, 1] (more is full) with gamma 2.2.
 pm_colour pm_colour_linear(double r, double g, double b);
