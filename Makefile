@@ -124,10 +124,11 @@ LAB_PROGRAMS := $(foreach p,emission tracing storage balancing radiance filterin
   reference compare,\
   $(if $(wildcard $(MAIN_$(p)).c),$(p)))
 VIEW := $(if $(VTK_INCLUDE),$(BIN)/view)
+NO_VIEW = echo "view is left out: VTK is missing; \`make deps\` installs libvtk9-dev"
 PROGRAMS := $(LAB_PROGRAMS:%=$(BIN)/%) $(VIEW)
 
 all: $(PROGRAMS) ## build the programs into build/bin
-	@$(if $(VTK_INCLUDE),:,echo "view is left out: VTK is missing; \`make deps\` installs libvtk9-dev")
+	@$(if $(VIEW),:,$(NO_VIEW))
 
 $(LAB_PROGRAMS:%=$(BIN)/%): $(BIN)/%: $(BUILD)/$$(MAIN_%).o $(CORE)
 	@mkdir -p $(@D)
@@ -201,6 +202,18 @@ demo: ## install what is missing, build, render the Cornell box and picture its 
 gallery: all ## render every scene at two qualities, all on one sheet
 	@visualize/gallery.sh $(BIN)
 
+# Committed figures are compared with a tolerance: libraries draw edges a little differently.
+ALIKE := $(BUILD)/tests/figures/alike
+figures: all $(ALIKE) ## draw every figure of README, hand-outs and slides (ONLY=labs/03 for some)
+	@$(if $(VIEW),visualize/figures.sh draw $(BIN) $(ALIKE),$(NO_VIEW); exit 2)
+
+check-figures: all $(ALIKE)
+	@$(if $(VIEW),visualize/figures.sh check $(BIN) $(ALIKE),$(NO_VIEW))
+
+$(ALIKE): %: %.o
+	$(call tell,link $@)
+	$(HIDE)$(LINK) -o $@ $< -lpng -lwebp
+
 # quality takes an hour, so it runs when it is named.
 BENCHES := promises plan direct caustics precompute projection $(filter quality,$(ONLY))
 bench: all $(BENCH_PROGRAMS) $(BIN)/render-without-caustics ## measure against the promises (ONLY=plan for one)
@@ -247,6 +260,7 @@ check: ## all that CI does: layout, lint, both compilers, tests, sanitizers (FUL
 	@$(MAKE) --no-print-directory check-lint
 	@$(AGAIN) build-tests WERROR=1 CC=clang CXX=clang++ BUILD=build/clang BIN=build/clang/bin
 	@$(MAKE) --no-print-directory test WERROR=1 CC=gcc CXX=g++
+	@$(MAKE) --no-print-directory check-figures WERROR=1 CC=gcc CXX=g++
 	@$(MAKE) --no-print-directory test SAN=1 WERROR=1 CC=gcc CXX=g++ EXCEPT='$(NUMBERS)'
 
 check-format:
@@ -282,6 +296,6 @@ help: ## list these targets
 	  printf '  make %-8s %s\n' "$$name" "$$does"; done
 
 FORCE:
-.PHONY: FORCE all meshes build-tests test demo gallery bench check check-format check-lint tidy format \
+.PHONY: FORCE all meshes build-tests test demo gallery figures check-figures bench check check-format check-lint tidy format \
   clean deps doctor help
 -include $(wildcard $(BUILD)/*/*.d $(BUILD)/*/*/*.d)
