@@ -41,16 +41,50 @@ static char letter(const pm_event *event)
     }
 }
 
+/// Writes the row that waits. With the direction in which the photon went on it is known
+/// whether that was through the surface.
+static void release_row(pm_path_dump *dump, const pm_vec3 *onward)
+{
+    if (!dump->waits) {
+        return;
+    }
+    bool through = onward != NULL && pm_vec_dot(*onward, dump->normal) < 0.0;
+    row(dump, dump->current, dump->step, through ? 'T' : 'S', dump->at, dump->power);
+    dump->waits = false;
+}
+
+static void begin_photon(pm_path_dump *dump, const pm_start *start)
+{
+    release_row(dump, NULL); // a stage that forgot its photon: the row is as it was told
+    row(dump, start->photon, 0, 'L', start->ray.origin, start->power);
+    dump->begun = true;
+    dump->current = start->photon;
+}
+
 void pm_path_dump_event(void *context, const pm_start *start, const pm_event *event)
 {
     pm_path_dump *dump = context;
     if (!dump->begun || dump->current != start->photon) {
-        row(dump, start->photon, 0, 'L', start->ray.origin, start->power);
-        dump->begun = true;
-        dump->current = start->photon;
+        begin_photon(dump, start);
     }
+    release_row(dump, &event->direction);
     pm_vec3 at = event->kind == PM_EVENT_ESCAPED
                      ? way_out(dump->scene, event->from, event->direction)
                      : event->position;
-    row(dump, start->photon, event->bounce + 1, letter(event), at, event->carried);
+    char what = letter(event);
+    if (what != 'S' || event->lobes == NULL) {
+        row(dump, start->photon, event->bounce + 1, what, at, event->carried);
+        return;
+    }
+    dump->waits = true;
+    dump->step = event->bounce + 1;
+    dump->at = at;
+    dump->normal = event->lobes->normal;
+    dump->power = event->carried;
+}
+
+pm_status pm_path_dump_commit(pm_path_dump *dump)
+{
+    release_row(dump, NULL);
+    return pm_file_commit(&dump->file);
 }

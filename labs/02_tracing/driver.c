@@ -18,8 +18,9 @@ static const pm_options_program program = {
     .options = "n projection photon roulette max-bounces dump report",
     .notes =
         "--dump writes every vertex of every path as photon,step,event,x,y,z,r,g,b; events\n"
-        "are L light, S specular, D diffuse, V in a medium, A absorbed, E escaped, C cut;\n"
-        "r,g,b is the power [W] that goes on. Deposits are those of the global map.",
+        "are L light, D diffuse, S specular (mirrored), T transmitted (through a surface by a\n"
+        "specular lobe), V in a medium, A absorbed, E escaped, C cut; r,g,b is the power [W]\n"
+        "that goes on. Deposits are those of the global map.",
 };
 
 typedef struct {
@@ -207,7 +208,7 @@ static pm_status trace_all(pm_job *job)
     PM_TRY(
         pm_photon_pass(&job->world.rays, PM_MAP_GLOBAL, &job->settings, &job->map, &job->pass));
     if (options->dump != NULL) {
-        PM_TRY(pm_file_commit(&job->dump.file));
+        PM_TRY(pm_path_dump_commit(&job->dump));
     }
     return report(job);
 }
