@@ -2,6 +2,7 @@
 #include "contact.h"
 
 #include "contact_note.h"
+#include "exposure.h"
 #include "exr.h"
 #include "faults.h"
 #include "png.h"
@@ -11,8 +12,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double shown_share = 0.95; // of a block's pixels that are not burnt out
-static const double shown_at = 0.9;     // linear light that the brightest of them get at most
 static const char *const channels[3] = {"R", "G", "B"};
 
 /// A sheet on its way: the pictures as they were read.
@@ -124,15 +123,7 @@ static void name_pictures(pm_contact *sheet)
     }
 }
 
-static int compare(const void *a, const void *b)
-{
-    float x = *(const float *)a;
-    float y = *(const float *)b;
-    return (x > y) - (x < y);
-}
-
-/// Stops, in halves, that bring most of a block's pixels to where they can be shown. The
-/// brightest channel decides. A black block stays as it is.
+/// The brightest channel of a block's pixels decides.
 static double find_exposure(const reading *r, const pm_contact_block *block, float *sample)
 {
     size_t pixels = (size_t)r->image[0].width * (size_t)r->image[0].height;
@@ -144,11 +135,7 @@ static double find_exposure(const reading *r, const pm_contact_block *block, flo
                 fmaxf(image->plane[0][p], fmaxf(image->plane[1][p], image->plane[2][p]));
         }
     }
-    qsort(sample, count, sizeof *sample, compare);
-    double bright = (double)sample[(size_t)(shown_share * (double)(count - 1))];
-    bright = bright > 0.0 ? bright : (double)sample[count - 1];
-    bool shows = bright > 0.0 && isfinite(bright);
-    return shows ? 0.5 * floor(2.0 * log2(shown_at / bright)) : 0.0;
+    return pm_exposure_choose(sample, count);
 }
 
 static pm_status choose_exposures(reading *r, double more)
