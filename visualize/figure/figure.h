@@ -76,6 +76,9 @@ pm_status pm_figure_panel(pm_figure *figure, const pm_rect *where,
 /// What of the figure title and right column leave free, less a small margin.
 pm_rect pm_figure_room(const pm_figure *figure);
 
+/// The same for a page without a right column.
+pm_rect pm_figure_wide_room(const pm_figure *figure);
+
 /// `count` equal rectangles side by side in `room`, with a gap for a line of text over each.
 /// @param cells  [out] room for `count`
 void pm_figure_columns(const pm_figure *figure, const pm_rect *room, int count, pm_rect *cells);

@@ -23,6 +23,13 @@ pm_rect pm_figure_room(const pm_figure *figure)
     return {edge, top, right - edge, figure->height - edge - top};
 }
 
+pm_rect pm_figure_wide_room(const pm_figure *figure)
+{
+    pm_rect room = pm_figure_room(figure);
+    room.width = figure->width - 2 * room.x;
+    return room;
+}
+
 void pm_figure_columns(const pm_figure *figure, const pm_rect *room, int count, pm_rect *cells)
 {
     int gap = whole(figure->pixels(margin));
