@@ -1,6 +1,7 @@
 // radiance: the irradiance at points, from the nearest photons of one or several independent
 // global maps; or the fluence at a point in a medium, from volume maps.
 #include "file.h"
+#include "gathered.h"
 #include "inside.h"
 #include "interrupt.h"
 #include "map_make.h"
@@ -21,15 +22,18 @@ static const pm_options_program program = {
     .positional = "SCENE",
     .positional_least = 1,
     .positional_most = 1,
-    .options =
-        "n " PM_OPTIONS_ESTIMATE
-        " at normal points on grid runs dump projection roulette max-bounces packing report",
+    .options = "n " PM_OPTIONS_ESTIMATE
+               " at normal points on grid runs dump gathered projection roulette max-bounces "
+               "packing report",
     .notes =
         "Give one of --at with --normal, --points, and --on with --grid. --at without\n"
         "--normal asks for the fluence in the medium there: radiance from all around, summed\n"
         "up; the photons of a ball, whatever --shape and --filter say. --dump writes the\n"
         "points as i,j,x,y,z,nx,ny,nz,r,g,b,radius,found, row by row; with --runs all\n"
-        "values are means over the runs, and sd is the deviation of one run.",
+        "values are means over the runs, and sd is the deviation of one run. --gathered\n"
+        "writes, at one point in one run, the photons that the estimate is made of and those\n"
+        "around it: what,number,x,y,z,nx,ny,nz,dx,dy,dz,r,g,b,distance,weight. Its first row\n"
+        "is the ball or disc: photons found, point, normal, irradiance, radius, flatness.",
 };
 
 /// One point's results over the runs so far.
@@ -120,6 +124,16 @@ static pm_status estimate_all(pm_job *job, const pm_photon_map *map)
     return worst == PM_OK ? PM_OK : pm_status_fail(worst, "%s", message);
 }
 
+/// The first point's only estimate, as it was told.
+static pm_status write_gathered(const pm_job *job, const pm_photon_map *map)
+{
+    const tally *told = &job->tallies[0];
+    pm_estimate estimate = {
+        .value = told->mean, .radius = told->radius, .found = (uint32_t)told->found};
+    return pm_gathered_write(job->options->gathered, map, &job->options->estimate,
+                             &job->probes.points[0], &estimate, job->world.scene.center);
+}
+
 static pm_status estimate_runs(pm_job *job)
 {
     pm_map_kind kind = job->medium != NULL ? PM_MAP_VOLUME : PM_MAP_GLOBAL;
@@ -128,6 +142,9 @@ static pm_status estimate_runs(pm_job *job)
         pm_photon_map map;
         PM_TRY(pm_map_make(job->options, &job->world.rays, kind, run, &map));
         pm_status status = estimate_all(job, &map);
+        if (status == PM_OK && job->options->gathered != NULL) {
+            status = write_gathered(job, &map);
+        }
         pm_photon_map_free(&map);
         PM_TRY(status);
         PM_TRY(pm_interrupt_check());
@@ -282,9 +299,22 @@ static pm_status find_medium(pm_job *job)
     return PM_OK;
 }
 
+static pm_status check_gathered(const pm_options *options)
+{
+    if (options->gathered == NULL ||
+        (options->has_at && options->has_normal && options->runs == 1)) {
+        return PM_OK;
+    }
+    return PM_FAIL(
+        PM_EINPUT, "%s",
+        "radiance: --gathered shows one estimate on a surface: it goes with --at and "
+        "--normal, and without --runs");
+}
+
 static pm_status run(pm_job *job)
 {
     const pm_options *options = job->options;
+    PM_TRY(check_gathered(options));
     PM_TRY(pm_world_open(options, false, &job->world));
     PM_TRY(pm_probes_make(program.name, options, &job->world.scene, &job->probes));
     if (job->probes.free) {
