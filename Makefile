@@ -120,6 +120,9 @@ MAIN_filtering := labs/06_filtering/driver
 MAIN_render := labs/07_rendering/driver
 MAIN_reference := labs/07_rendering/reference
 MAIN_compare := labs/07_rendering/compare
+# What a program has beside its main object and core.
+WITH_balancing := labs/04_balancing/tree labs/04_balancing/grown_tree labs/04_balancing/tree_dump \
+  labs/04_balancing/visit_dump
 LAB_PROGRAMS := $(foreach p,emission tracing storage balancing radiance filtering render \
   reference compare,\
   $(if $(wildcard $(MAIN_$(p)).c),$(p)))
@@ -130,7 +133,7 @@ PROGRAMS := $(LAB_PROGRAMS:%=$(BIN)/%) $(VIEW)
 all: $(PROGRAMS) ## build the programs into build/bin
 	@$(if $(VIEW),:,$(NO_VIEW))
 
-$(LAB_PROGRAMS:%=$(BIN)/%): $(BIN)/%: $(BUILD)/$$(MAIN_%).o $(CORE)
+$(LAB_PROGRAMS:%=$(BIN)/%): $(BIN)/%: $(BUILD)/$$(MAIN_%).o $$(call objects,$$(WITH_%)) $(CORE)
 	@mkdir -p $(@D)
 	$(call tell,link $@)
 	$(HIDE)$(LINK) -o $@ $^ $(PART_LIBS)
@@ -171,9 +174,11 @@ $(BUILD)/parts:
 
 # --- tests ------------------------------------------------------------------------------------
 ATTACKS := $(BUILD)/tests/attacks
+CHARTS := $(if $(VIEW),$(BUILD)/tests/charts/sample)
 # Tests find programs by their full path, so that a test may change its folder.
 $(RUNNER): DEFINE = -DPM_TEST_BIN='"$(abspath $(BIN))"' $(if $(VIEW),,-DPM_TEST_WITHOUT='" view "')
 $(BUILD)/tests/test_runner.o: DEFINE = -DPM_TEST_ATTACKS='"$(abspath $(ATTACKS))"'
+$(BUILD)/tests/test_chart.o: DEFINE = -DPM_TEST_CHARTS='"$(abspath $(CHARTS))"'
 $(BUILD)/tests/test_scenes.o: DEFINE = -DPM_TEST_MESHES='"$(abspath $(MAKE_MESHES))"'
 $(TESTS): DEFINE += -Itests
 
@@ -185,7 +190,11 @@ $(ATTACKS): $(BUILD)/tests/runner/attacks.o $(RUNNER) $(BUILD)/core/status.o
 	$(call tell,link $@)
 	$(HIDE)$(LINK) -o $@ $^ $(PART_LIBS)
 
-build-tests: all $(BUILD)/tests/run $(ATTACKS) $(MAKE_MESHES)
+$(CHARTS): %: %.o $(call objects,$(wildcard visualize/figure/*.c*)) $(CORE)
+	$(call tell,link $@)
+	$(HIDE)$(LINK_CXX) -o $@ $^ $(VTK_LIBS) $(PART_LIBS)
+
+build-tests: all $(BUILD)/tests/run $(ATTACKS) $(CHARTS) $(MAKE_MESHES)
 
 test: ## build, then run the tests (ONLY=tag for some, SAN=1 with sanitizers)
 	@$(AGAIN) build-tests

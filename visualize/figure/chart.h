@@ -34,7 +34,8 @@ typedef enum {
 
 typedef struct pm_chart pm_chart;
 
-/// Opens an empty chart.
+/// Opens an empty chart. The calls below copy what they are given and refuse, by PM_EINPUT,
+/// values that are not finite, or not positive along a logarithmic axis.
 /// @param where  with its titles and labels
 /// @param chart  [out] the figure's
 /// @return PM_EINPUT for axis ends that are out of order, not finite, or not positive where the
@@ -42,7 +43,7 @@ typedef struct pm_chart pm_chart;
 pm_status pm_chart_open(pm_figure *figure, const pm_rect *where, const pm_chart_axes *axes,
                         pm_chart **chart);
 
-/// Points in order. On a logarithmic axis they must be positive. Copies what it needs.
+/// Points in order.
 /// @param label  in the chart's legend; NULL: not there
 pm_status pm_chart_curve(pm_chart *chart, const char *label, pm_colour colour,
                          pm_chart_look look, const double *x, const double *y, int count);
@@ -54,6 +55,10 @@ pm_status pm_chart_bars(pm_chart *chart, const char *label, pm_colour colour, co
 /// An error bar from `low` to `high` at each x, not in the legend.
 pm_status pm_chart_errors(pm_chart *chart, pm_colour colour, const double *x, const double *low,
                           const double *high, int count);
+
+/// The same along the other axis: from `low` to `high` [x] at each height `y`.
+pm_status pm_chart_errors_x(pm_chart *chart, pm_colour colour, const double *y,
+                            const double *low, const double *high, int count);
 
 /// The area between two curves, translucent.
 pm_status pm_chart_band(pm_chart *chart, const char *label, pm_colour colour, const double *x,

@@ -11,6 +11,7 @@
 #include <vtkSmartPointer.h>
 
 #include <exception>
+#include <memory>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -46,6 +47,8 @@ struct pm_dataset {
     vtkSmartPointer<vtkPolyData> data;
 };
 
+struct pm_chart;
+
 struct pm_figure {
     int width, height; // pixels
     vtkSmartPointer<vtkRenderWindow> window;
@@ -56,6 +59,7 @@ struct pm_figure {
     std::vector<pm_panel> panels;
     std::vector<pm_drawn_scale> scales;
     std::vector<pm_drawn_chart> charts;
+    std::vector<std::shared_ptr<pm_chart>> open_charts; // and closed ones
     std::vector<pm_dataset> datasets;
 
     /// A length in pixels that is `at900` in a picture 900 pixels high.

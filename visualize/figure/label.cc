@@ -2,10 +2,12 @@
 // of a picture 900 high and scaled with it, so that it is legible at any size.
 #include "drawing.hh"
 #include "figure.hh"
+#include "words.hh"
 
 #include <vtkNew.h>
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
+#include <vtkTextRenderer.h>
 
 #include <cmath>
 #include <cstdio>
@@ -14,35 +16,18 @@ namespace {
 
 const double title_size = 28.0;
 const double note_size = 19.0;
-const double text_size = 19.0;
+const double text_size = pm_words_size;
 const double mark_size = 16.0;
-const double line_height = 31.0;
+const double line_height = pm_words_line;
 const double swatch_width = 26.0;
 const double bar_height = 190.0;
 const int bar_steps = 128;
 
-/// Text whose top left corner is at (x, y), pixels from the bottom left.
-vtkTextProperty *write_pixels(pm_figure *figure, const std::string &text, double x, double y,
-                              double size)
-{
-    vtkNew<vtkTextActor> actor;
-    actor->SetInput(text.c_str());
-    actor->SetPosition(x, y);
-    vtkTextProperty *style = actor->GetTextProperty();
-    style->SetFontFamilyToArial();
-    style->SetFontSize(static_cast<int>(std::lround(size)));
-    style->SetColor(0.93, 0.94, 0.96);
-    style->SetVerticalJustificationToTop();
-    style->SetLineSpacing(1.25);
-    figure->page->AddActor2D(actor);
-    return style;
-}
-
-/// The same with letters of a `size` in a picture 900 pixels high.
+/// Letters of a `size` in a picture 900 pixels high.
 vtkTextProperty *write(pm_figure *figure, const std::string &text, double x, double y,
                        double size)
 {
-    return write_pixels(figure, text, x, y, figure->pixels(size));
+    return pm_words_put(figure, text, x, y, figure->pixels(size));
 }
 
 void box(pm_drawing *drawing, double x0, double y0, double x1, double y1, pm_colour colour)
@@ -148,6 +133,33 @@ pm_rect on_page(const pm_figure *figure, double x, double top, double width, dou
 
 } // namespace
 
+vtkTextProperty *pm_words_put(pm_figure *figure, const std::string &text, double x, double y,
+                              double size)
+{
+    vtkNew<vtkTextActor> actor;
+    actor->SetInput(text.c_str());
+    actor->SetPosition(x, y);
+    vtkTextProperty *style = actor->GetTextProperty();
+    style->SetFontFamilyToArial();
+    style->SetFontSize(static_cast<int>(std::lround(size)));
+    style->SetColor(0.93, 0.94, 0.96);
+    style->SetVerticalJustificationToTop();
+    style->SetLineSpacing(1.25);
+    figure->page->AddActor2D(actor);
+    return style;
+}
+
+double pm_words_width(const std::string &text, double size)
+{
+    vtkNew<vtkTextProperty> style;
+    style->SetFontFamilyToArial();
+    style->SetFontSize(static_cast<int>(std::lround(size)));
+    int box[4] = {0, 0, 0, 0};
+    const int dpi = 72;
+    vtkTextRenderer::GetInstance()->GetBoundingBox(style, text, box, dpi);
+    return text.empty() ? 0.0 : box[1] - box[0] + 1.0;
+}
+
 pm_status pm_figure_title(pm_figure *figure, const char *title, const char *note)
 {
     return pm_figure_guard("a title", [&] {
@@ -231,7 +243,7 @@ pm_status pm_figure_text(pm_figure *figure, const char *text, double x, double y
                          pm_text_look look)
 {
     return pm_figure_guard("a line of text", [&] {
-        vtkTextProperty *style = write_pixels(figure, text, x, figure->height - y, size);
+        vtkTextProperty *style = pm_words_put(figure, text, x, figure->height - y, size);
         style->SetBold(look == PM_TEXT_STRONG);
         if (look == PM_TEXT_DIM || look == PM_TEXT_DIM_RIGHT) {
             style->SetColor(0.72, 0.75, 0.8);
