@@ -282,6 +282,9 @@ static void descend(walk *w, uint64_t node)
         }
         w->looked_at++;
         consider(search, photon, (uint32_t)(node - 1), &w->held);
+        if (search->visit != NULL) {
+            search->visit(search->witness, (uint32_t)(node - 1), w->held.limit);
+        }
         int axis = photon->flags & PM_PHOTON_AXIS;
         double beyond = pm_vec_axis(search->at, axis) - (double)photon->position[axis];
         uint64_t near = 2 * node + (beyond > 0.0 ? 1 : 0);

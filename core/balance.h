@@ -14,12 +14,18 @@
 /// photons whose Euclidean distance is still of interest.
 typedef bool (*pm_accept_fn)(const void *context, const pm_photon *photon, double *distance2);
 
+/// Told of every photon that a search looks at, in that order, wanted or not: its index in
+/// photons[], and the squared distance below which photons are wanted from here on.
+typedef void (*pm_visit_fn)(void *witness, uint32_t index, double limit2);
+
 typedef struct {
     pm_vec3 at;
     uint32_t k;          // photons wanted, >= 1
     double radius2;      // squared reach [m^2], > 0; INFINITY for none
     pm_accept_fn accept; // NULL: every photon, Euclidean distance
     const void *context;
+    pm_visit_fn visit; // NULL: nobody watches
+    void *witness;     // handed to `visit`
     double widen[3]; // a plane at distance d across axis a is at least d^2 widen[a] away in the
                      // measure of `accept`; 0 stands for 1, which is always right
 } pm_search;

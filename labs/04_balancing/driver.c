@@ -1,21 +1,24 @@
 // balancing: the photons of a scene become a kd-tree, and the k nearest are looked up in it.
 //
-// For comparison the same photons also go into a tree that grows by itself: inserted one by one
-// in the order they were stored, axes taking turns by depth.
+// For comparison the same photons also go into a tree that grows by itself. What is done with
+// one is done with the other, so that the numbers can stand side by side.
 #include "balance.h"
 #include "clock.h"
+#include "file.h"
+#include "grown_tree.h"
 #include "map_make.h"
 #include "photon_file.h"
 #include "photon_map.h"
 #include "program.h"
 #include "report.h"
+#include "tree_dump.h"
+#include "visit_dump.h"
 #include "world.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 
 #define QUERIES 2000u // photons around which is searched, spread evenly over the map
-#define NO_CHILD UINT32_MAX
 
 static const pm_options_program program = {
     .name = "balancing",
@@ -23,12 +26,16 @@ static const pm_options_program program = {
     .positional = "SCENE",
     .positional_least = 1,
     .positional_most = 1,
-    .options = "n projection k r roulette max-bounces packing o report",
+    .options = "n projection k r roulette max-bounces packing o dump at "
+               "visits report",
     .notes =
         "-o writes the balanced map. Searches are around photons of the map, without side\n"
         "test. height counts the links from the root to the deepest photon; unbalanced is\n"
         "a tree that photons are inserted into as they come. Of a scene with media the global\n"
-        "map is taken, too: trees of volume maps are made the same way.",
+        "map is taken, too: trees of volume maps are made the same way.\n"
+        "--dump writes both trees: their levels, and the planes of the first ones.\n"
+        "--visits writes what a search for the k nearest of --at looks at, in both trees, a\n"
+        "photon a line, in the search's own order; a small -k and -n make it readable.",
 };
 
 typedef struct {
@@ -39,176 +46,107 @@ typedef struct {
     uint32_t query_count;
     double visited, visited_unbalanced; // means
     double build_s, query_s;            // CPU
+    pm_file dump, visits;
 } pm_job;
 
-// --- the tree that grows by itself ----------------------------------------------------------
-
+/// What searches came to.
 typedef struct {
-    const pm_photon *photons;
-    uint32_t (*child)[2]; // of photon i; photon 0 is the root
-    uint32_t height;
-} grown_tree;
+    pm_neighbour *nearest; // room for k
+    uint32_t found;        // by the last one
+    uint64_t visited;      // by all
+} answer;
 
-/// Goes down from photon `node`; true when `at` lies beyond it.
-static bool side_of(const pm_photon *photon, pm_vec3 at, uint32_t depth)
+// --- one tree or the other ------------------------------------------------------------------
+
+/// The tree of a job: the grown one, or with NULL the balanced map.
+static pm_status look_up(const pm_job *job, pm_grown_tree *grown, const pm_search *search,
+                         answer *got)
 {
-    int axis = (int)(depth % 3);
-    return pm_vec_axis(at, axis) > (double)photon->position[axis];
+    if (grown != NULL) {
+        pm_grown_tree_nearest(grown, search, got->nearest, &got->found, &got->visited);
+        return PM_OK;
+    }
+    return pm_balance_nearest(&job->map, search, got->nearest, &got->found, &got->visited);
 }
 
-static pm_vec3 position_of(const pm_photon *photon)
+static pm_status make_room(const pm_job *job, answer *got)
 {
-    return pm_vec((double)photon->position[0], (double)photon->position[1],
-                  (double)photon->position[2]);
+    uint32_t k = job->options->estimate.k;
+    *got = (answer){.nearest = malloc((size_t)k * sizeof *got->nearest)};
+    return got->nearest != NULL ? PM_OK
+                                : PM_FAIL(PM_ENOMEM, "no memory to search for %u photons", k);
 }
 
-static void insert(grown_tree *tree, uint32_t photon)
-{
-    pm_vec3 at = position_of(&tree->photons[photon]);
-    uint32_t node = 0;
-    uint32_t depth = 0;
-    for (;;) {
-        bool side = side_of(&tree->photons[node], at, depth);
-        depth++;
-        if (tree->child[node][side] == NO_CHILD) {
-            tree->child[node][side] = photon;
-            break;
-        }
-        node = tree->child[node][side];
-    }
-    tree->height = depth > tree->height ? depth : tree->height;
-}
-
-static pm_status grow(const pm_photon_map *map, grown_tree *tree)
-{
-    *tree = (grown_tree){.photons = map->photons};
-    tree->child = malloc((size_t)map->count * sizeof *tree->child);
-    if (tree->child == NULL) {
-        return PM_FAIL(PM_ENOMEM, "no memory for a tree of %u photons", map->count);
-    }
-    for (uint32_t i = 0; i < map->count; i++) {
-        tree->child[i][0] = tree->child[i][1] = NO_CHILD;
-    }
-    for (uint32_t i = 1; i < map->count; i++) {
-        insert(tree, i);
-    }
-    return PM_OK;
-}
-
-/// The distances held: a max-heap once there are k.
-typedef struct {
-    double *distance2;
-    uint32_t k, found;
-} distances;
-
-static void replace_farthest(distances *held, double distance2)
-{
-    double *heap = held->distance2;
-    uint64_t hole = 0;
-    for (;;) {
-        uint64_t child = 2 * hole + 1;
-        if (child + 1 < held->k && heap[child + 1] > heap[child]) {
-            child++;
-        }
-        if (child >= held->k || heap[child] <= distance2) {
-            break;
-        }
-        heap[hole] = heap[child];
-        hole = child;
-    }
-    heap[hole] = distance2;
-}
-
-static void append(distances *held, double distance2)
-{
-    uint32_t at = held->found++;
-    while (at > 0 && held->distance2[(at - 1) / 2] < distance2) {
-        held->distance2[at] = held->distance2[(at - 1) / 2];
-        at = (at - 1) / 2;
-    }
-    held->distance2[at] = distance2;
-}
-
-typedef struct {
-    uint32_t node, depth;
-    double plane2;
-} put_off;
-
-/// The same search as pm_balance_nearest(), in this tree. Returns the nodes looked at.
-static uint64_t visits(const grown_tree *tree, pm_vec3 at, double reach2, distances *held,
-                       put_off *later)
-{
-    uint64_t looked_at = 0;
-    uint32_t waiting = 0;
-    later[waiting++] = (put_off){0, 0, 0.0};
-    held->found = 0;
-    while (waiting > 0) {
-        put_off next = later[--waiting];
-        double limit = held->found == held->k ? held->distance2[0] : reach2;
-        if (next.node == NO_CHILD || next.plane2 > limit) {
-            continue;
-        }
-        looked_at++;
-        const pm_photon *photon = &tree->photons[next.node];
-        pm_vec3 away = pm_vec_sub(position_of(photon), at);
-        double distance2 = pm_vec_dot(away, away);
-        if (distance2 <= limit && held->found == held->k) {
-            replace_farthest(held, distance2);
-        } else if (distance2 <= limit) {
-            append(held, distance2);
-        }
-        double plane = pm_vec_axis(away, (int)(next.depth % 3));
-        bool side = side_of(photon, at, next.depth);
-        later[waiting++] =
-            (put_off){tree->child[next.node][!side], next.depth + 1, plane * plane};
-        later[waiting++] = (put_off){tree->child[next.node][side], next.depth + 1, 0.0};
-    }
-    return looked_at;
-}
-
-static pm_status measure_grown(pm_job *job, const grown_tree *tree)
+static pm_search search_around(const pm_job *job, pm_vec3 at)
 {
     const pm_estimate_settings *settings = &job->options->estimate;
-    distances held = {.k = settings->k};
-    held.distance2 = malloc((size_t)settings->k * sizeof *held.distance2);
-    put_off *later = malloc(((size_t)tree->height + 2) * 2 * sizeof *later);
-    uint64_t visited = 0;
-    if (held.distance2 != NULL && later != NULL) {
-        for (uint32_t i = 0; i < job->query_count; i++) {
-            double reach2 = settings->radius * settings->radius;
-            visited += visits(tree, job->queries[i], reach2, &held, later);
-        }
-    }
-    bool made = held.distance2 != NULL && later != NULL;
-    free(held.distance2);
-    free(later);
-    job->visited_unbalanced = (double)visited / job->query_count;
-    return made ? PM_OK : PM_FAIL(PM_ENOMEM, "no memory to search for %u photons", settings->k);
+    return (pm_search){
+        .at = at, .k = settings->k, .radius2 = settings->radius * settings->radius};
 }
 
-// --- the balanced tree ----------------------------------------------------------------------
-
-static pm_status measure_balanced(pm_job *job)
+/// @param visited_mean  [out] photons looked at in a search
+static pm_status measure(const pm_job *job, pm_grown_tree *grown, double *visited_mean)
 {
-    const pm_estimate_settings *settings = &job->options->estimate;
-    pm_neighbour *nearest = malloc((size_t)settings->k * sizeof *nearest);
-    if (nearest == NULL) {
-        return PM_FAIL(PM_ENOMEM, "no memory to search for %u photons", settings->k);
-    }
+    answer got;
+    PM_TRY(make_room(job, &got));
     pm_status status = PM_OK;
-    uint64_t visited = 0;
-    double start = pm_cpu_seconds_now();
     for (uint32_t i = 0; i < job->query_count && status == PM_OK; i++) {
-        uint32_t found;
-        pm_search search = {.at = job->queries[i],
-                            .k = settings->k,
-                            .radius2 = settings->radius * settings->radius};
-        status = pm_balance_nearest(&job->map, &search, nearest, &found, &visited);
+        pm_search search = search_around(job, job->queries[i]);
+        status = look_up(job, grown, &search, &got);
     }
-    job->query_s = pm_cpu_seconds_now() - start;
-    job->visited = (double)visited / job->query_count;
-    free(nearest);
+    free(got.nearest);
+    *visited_mean = (double)got.visited / job->query_count;
     return status;
+}
+
+/// Writes the visits of the one search around --at.
+static pm_status watch(pm_job *job, pm_grown_tree *grown, const pm_tree *tree)
+{
+    pm_vec3 center = job->world.scene.center;
+    pm_search search = search_around(job, pm_vec_sub(job->options->at, center));
+    pm_visit_list seen = {0};
+    search.visit = pm_visit_list_add;
+    search.witness = &seen;
+    answer got;
+    PM_TRY(make_room(job, &got));
+    pm_status status = look_up(job, grown, &search, &got);
+    if (status == PM_OK) {
+        pm_watched watched = {tree, &search, &seen, got.nearest, got.found, got.visited};
+        status = pm_visit_dump(job->visits.stream, &watched, center);
+    }
+    free(got.nearest);
+    pm_visit_list_free(&seen);
+    return status;
+}
+
+static pm_status write_tables(pm_job *job, pm_grown_tree *grown, const pm_tree *tree,
+                              double visited_mean)
+{
+    if (job->dump.stream != NULL) {
+        PM_TRY(pm_tree_dump(job->dump.stream, tree, visited_mean, job->world.scene.center));
+    }
+    return job->visits.stream != NULL ? watch(job, grown, tree) : PM_OK;
+}
+
+static pm_status use_grown(pm_job *job)
+{
+    pm_grown_tree *grown = NULL;
+    PM_TRY(pm_grown_tree_make(&job->map, &grown));
+    pm_status status = measure(job, grown, &job->visited_unbalanced);
+    if (status == PM_OK) {
+        status = write_tables(job, grown, pm_grown_tree_links(grown), job->visited_unbalanced);
+    }
+    pm_grown_tree_free(grown);
+    return status;
+}
+
+static pm_status use_balanced(pm_job *job)
+{
+    double start = pm_cpu_seconds_now();
+    PM_TRY(measure(job, NULL, &job->visited));
+    job->query_s = pm_cpu_seconds_now() - start;
+    pm_tree tree = pm_tree_of_map(&job->map);
+    return write_tables(job, NULL, &tree, job->visited);
 }
 
 // --- the job --------------------------------------------------------------------------------
@@ -222,21 +160,11 @@ static pm_status choose_queries(pm_job *job)
     }
     for (uint32_t i = 0; i < count; i++) {
         uint64_t photon = (uint64_t)i * job->map.count / count;
-        job->queries[i] = position_of(&job->map.photons[photon]);
+        const float *at = job->map.photons[photon].position;
+        job->queries[i] = pm_vec((double)at[0], (double)at[1], (double)at[2]);
     }
     job->query_count = count;
     return PM_OK;
-}
-
-static pm_status compare_with_grown(pm_job *job)
-{
-    grown_tree tree;
-    pm_status status = grow(&job->map, &tree);
-    if (status == PM_OK) {
-        status = measure_grown(job, &tree);
-    }
-    free(tree.child);
-    return status;
 }
 
 static pm_status build(pm_job *job)
@@ -295,23 +223,62 @@ static pm_status trace(pm_job *job)
     return status;
 }
 
-static pm_status run(pm_job *job)
+static pm_status begin_tables(pm_job *job)
 {
     const pm_options *options = job->options;
-    PM_TRY(pm_world_open(options, false, &job->world));
-    PM_TRY(trace(job));
-    if (job->map.count > 0) {
-        PM_TRY(choose_queries(job));
-        PM_TRY(compare_with_grown(job));
+    if (options->dump != NULL) {
+        PM_TRY(pm_file_begin(options->dump, &job->dump));
+        fputs(PM_TREE_DUMP_HEADER, job->dump.stream);
     }
-    PM_TRY(build(job));
-    if (job->map.count > 0) {
-        PM_TRY(measure_balanced(job));
+    if (options->visits != NULL) {
+        PM_TRY(pm_file_begin(options->visits, &job->visits));
+        fputs(PM_VISIT_DUMP_HEADER, job->visits.stream);
     }
+    return PM_OK;
+}
+
+/// The tables and the map: all were made before the first is there.
+static pm_status write_files(pm_job *job)
+{
+    const pm_options *options = job->options;
     if (options->output != NULL) {
         PM_TRY(write_map(job));
     }
+    if (options->dump != NULL) {
+        PM_TRY(pm_file_commit(&job->dump));
+    }
+    return options->visits != NULL ? pm_file_commit(&job->visits) : PM_OK;
+}
+
+static pm_status run(pm_job *job)
+{
+    PM_TRY(pm_world_open(job->options, false, &job->world));
+    PM_TRY(begin_tables(job));
+    PM_TRY(trace(job));
+    if (job->map.count > 0) {
+        PM_TRY(choose_queries(job));
+        PM_TRY(use_grown(job)); // first: balancing moves the photons
+    }
+    PM_TRY(build(job));
+    if (job->map.count > 0) {
+        PM_TRY(use_balanced(job));
+    }
+    PM_TRY(write_files(job));
     return report(job);
+}
+
+static pm_status check_options(const pm_options *options)
+{
+    if (options->visits != NULL && !options->has_at) {
+        return pm_status_fail(
+            PM_EINPUT, "%s",
+            "balancing: --visits needs --at X,Y,Z, the point to search around");
+    }
+    if (options->has_at && options->visits == NULL) {
+        return pm_status_fail(PM_EINPUT, "%s",
+                              "balancing: --at is for --visits FILE.csv, which is not given");
+    }
+    return PM_OK;
 }
 
 int main(int argc, char **argv)
@@ -322,7 +289,12 @@ int main(int argc, char **argv)
         return code;
     }
     pm_job job = {.options = &options};
-    pm_status status = run(&job);
+    pm_status status = check_options(&options);
+    if (status == PM_OK) {
+        status = run(&job);
+    }
+    pm_file_abandon(&job.dump);
+    pm_file_abandon(&job.visits);
     free(job.queries);
     pm_photon_map_free(&job.map);
     pm_world_close(&job.world);
