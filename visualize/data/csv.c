@@ -10,6 +10,9 @@
 // Light starts, and is followed, within so many scene radii of the centre.
 #define RADII 4.0
 
+// Unit vectors are written with nine digits.
+#define UNIT_SLACK 1e-5
+
 /// Cuts `text` at its commas; returns the number of fields, PM_CSV_COLUMNS_MAX + 1 for too
 /// many.
 static int split(char *text, char **field)
@@ -141,6 +144,23 @@ pm_status pm_csv_point(const pm_csv *csv, int column, const pm_scene *scene, pm_
             csv->field[column + 2], scene->path);
     }
     *point = at;
+    return PM_OK;
+}
+
+pm_status pm_csv_unit(const pm_csv *csv, int column, pm_vec3 *direction)
+{
+    pm_vec3 v;
+    PM_TRY(pm_csv_number(csv, column, &v.x));
+    PM_TRY(pm_csv_number(csv, column + 1, &v.y));
+    PM_TRY(pm_csv_number(csv, column + 2, &v.z));
+    double length = pm_vec_length(v);
+    if (!(fabs(length - 1.0) <= UNIT_SLACK)) {
+        return pm_status_fail(PM_EINPUT,
+                              "%s:%ld: %s and the two fields behind it must be a unit vector, "
+                              "got length %g",
+                              csv->path, csv->line, csv->name[column], length);
+    }
+    *direction = pm_vec_scale(v, 1.0 / length);
     return PM_OK;
 }
 

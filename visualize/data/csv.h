@@ -50,6 +50,9 @@ pm_status pm_csv_positive(const pm_csv *csv, int column, double *value);
 /// file was written for another scene.
 pm_status pm_csv_point(const pm_csv *csv, int column, const pm_scene *scene, pm_vec3 *point);
 
+/// Fields `column` to `column` + 2 as a unit vector.
+pm_status pm_csv_unit(const pm_csv *csv, int column, pm_vec3 *direction);
+
 /// Field `column` as a whole number in [0, most].
 pm_status pm_csv_count(const pm_csv *csv, int column, uint64_t most, uint64_t *value);
 

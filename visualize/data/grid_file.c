@@ -48,14 +48,12 @@ static pm_status check_order(const pm_csv *csv, uint64_t count, uint64_t *column
 
 static pm_status read_point(const pm_csv *csv, const pm_scene *scene, pm_grid_point *point)
 {
-    double unused = 0.0;
     PM_TRY(pm_csv_point(csv, X, scene, &point->position));
-    for (int column = NX; column <= NZ; column++) {
-        PM_TRY(pm_csv_number(csv, column, &unused));
-    }
+    PM_TRY(pm_csv_unit(csv, NX, &point->normal));
     for (int c = 0; c < 3; c++) {
         PM_TRY(pm_csv_positive(csv, RED + c, &point->irradiance.c[c]));
     }
+    PM_TRY(pm_csv_positive(csv, RADIUS, &point->radius));
     return pm_csv_count(csv, FOUND, UINT64_MAX, &point->found);
 }
 

@@ -10,7 +10,8 @@
 #define PM_GRID_HEADER "i,j,x,y,z,nx,ny,nz,r,g,b,radius,found"
 
 /// Reads a dump. Refuses, with file:line, points out of order, an incomplete last row, a grid
-/// below 2 x 2, an irradiance below 0, and numbers that are not finite (radius may be inf).
+/// below 2 x 2, an irradiance or a radius below 0, a normal that is not a unit vector, and
+/// numbers that are not finite.
 /// @param scene  that the data came from
 /// @param grid    [out] untouched unless PM_OK; free with pm_grid_file_free()
 pm_status pm_grid_file_read(const char *path, const pm_scene *scene, pm_grid *grid);
