@@ -96,7 +96,7 @@ pm_status pm_figure_legend(pm_figure *figure, const char *heading,
 /// A scalar bar in the right column, under what there is, with its ends' values.
 pm_status pm_figure_scale(pm_figure *figure, const pm_scale *scale);
 
-/// A small word at a point of the current panel's scene.
+/// A small word at a point of the current panel's scene; none where the panel does not reach.
 pm_status pm_figure_mark(pm_figure *figure, pm_vec3 at, const char *text);
 
 /// How a line of text looks.

@@ -225,8 +225,9 @@ pm_status pm_figure_mark(pm_figure *figure, pm_vec3 at, const char *text)
     return pm_figure_guard("a mark", [&] {
         double x = 0.0;
         double y = 0.0;
-        if (pm_viewpoint_project(&figure->viewpoint, at, &x, &y)) {
-            const pm_rect &panel = figure->panels.back().where;
+        const pm_rect &panel = figure->panels.back().where;
+        bool before = pm_viewpoint_project(&figure->viewpoint, at, &x, &y);
+        if (before && x >= 0.0 && y >= 0.0 && x <= panel.width && y <= panel.height) {
             vtkTextProperty *style =
                 write(figure, text, panel.x + x, figure->height - panel.y - y, mark_size);
             style->SetColor(0.85, 0.87, 0.92);
