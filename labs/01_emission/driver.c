@@ -1,5 +1,5 @@
 // emission: photons leave the lights, and nothing more.
-#include "emit.h"
+#include "emit_dump.h"
 #include "file.h"
 #include "interrupt.h"
 #include "map_make.h"
@@ -18,9 +18,11 @@ static const pm_options_program program = {
     .positional = "SCENE",
     .positional_least = 1,
     .positional_most = 1,
-    .options = "n projection dump report",
+    .options = "n projection dump cells report",
     .notes = "Photons are sent where the global map wants them, or everywhere.\n"
-             "--dump writes the rays as ox,oy,oz,dx,dy,dz,r,g,b,light; r,g,b is the power [W].",
+             "--dump writes the rays as " PM_RAY_HEADER "; r,g,b is the power\n"
+             "[W]. --cells writes where lights are aimed, for the global and the caustic map, "
+             "as\n" PM_CELL_HEADER ".",
 };
 
 /// What was emitted.
@@ -31,18 +33,8 @@ typedef struct {
     uint64_t *share;
     pm_projections aim;
     pm_spectrum power; // [W]
-    pm_file dump;
+    pm_file dump, cells;
 } pm_job;
-
-static void write_ray(const pm_job *job, const pm_start *start)
-{
-    pm_vec3 from = pm_vec_add(start->ray.origin, job->world.scene.center);
-    pm_vec3 way = start->ray.direction;
-    pm_spectrum watts = pm_spectrum_scale(start->power, 1.0 / (double)job->count);
-    fprintf(job->dump.stream, "%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%u\n", from.x,
-            from.y, from.z, way.x, way.y, way.z, watts.c[0], watts.c[1], watts.c[2],
-            start->light);
-}
 
 /// The photons that the lights send: none where no light sends any power.
 static uint64_t shared_out(const pm_job *job)
@@ -72,13 +64,30 @@ static pm_status emit_all(pm_job *job)
         for (uint32_t i = 0; i < batch; i++) {
             job->power = pm_spectrum_add(job->power, starts[i].power);
             if (job->dump.stream != NULL) {
-                write_ray(job, &starts[i]);
+                pm_emit_dump_ray(job->dump.stream, &job->world.scene, &starts[i], job->count);
             }
         }
         PM_TRY(pm_interrupt_check());
     }
     job->power = pm_spectrum_scale(job->power, 1.0 / (double)job->count);
     return PM_OK;
+}
+
+/// The cells of the caustic map are written, too: there aiming pays most.
+static pm_status write_cells(pm_job *job)
+{
+    pm_projections caustic;
+    PM_TRY(pm_map_aim(job->options, &job->world.scene, PM_MAP_CAUSTIC, &caustic));
+    pm_status status = pm_file_begin(job->options->cells, &job->cells);
+    if (status == PM_OK) {
+        FILE *to = job->cells.stream;
+        fputs(PM_CELL_HEADER "\n", to);
+        pm_emit_dump_cells(to, &job->world.scene, pm_map_name(PM_MAP_GLOBAL), &job->aim);
+        pm_emit_dump_cells(to, &job->world.scene, pm_map_name(PM_MAP_CAUSTIC), &caustic);
+        status = pm_file_commit(&job->cells);
+    }
+    pm_projection_free(&caustic);
+    return status;
 }
 
 static pm_status report(const pm_job *job)
@@ -119,11 +128,14 @@ static pm_status run(pm_job *job)
         pm_emit_share(&job->world.scene, pm_projection_of(&job->aim), job->count, job->share));
     if (options->dump != NULL) {
         PM_TRY(pm_file_begin(options->dump, &job->dump));
-        fputs("ox,oy,oz,dx,dy,dz,r,g,b,light\n", job->dump.stream);
+        fputs(PM_RAY_HEADER "\n", job->dump.stream);
     }
     PM_TRY(emit_all(job));
     if (options->dump != NULL) {
         PM_TRY(pm_file_commit(&job->dump));
+    }
+    if (options->cells != NULL) {
+        PM_TRY(write_cells(job));
     }
     return report(job);
 }
@@ -138,6 +150,7 @@ int main(int argc, char **argv)
     pm_job job = {.options = &options};
     pm_status status = run(&job);
     pm_file_abandon(&job.dump);
+    pm_file_abandon(&job.cells);
     free(job.share);
     pm_projection_free(&job.aim);
     pm_world_close(&job.world);
