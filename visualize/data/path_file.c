@@ -7,13 +7,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define EVENTS "LSDVAEC"
+#define EVENTS "LDSTVAEC"
 
 enum { PHOTON, STEP, EVENT, X, Y, Z, RED, GREEN, BLUE };
 
 typedef struct {
     pm_path_set set;
-    uint64_t vertex_count, vertex_room, path_room;
+    uint64_t vertex_count, vertex_room, first_room, photon_room;
     uint64_t photon, step; // of the row before
     bool ended;
 } reader;
@@ -37,15 +37,21 @@ static pm_status no_room(const reader *to)
 }
 
 /// Begins a path; room for the entry behind the last is kept, too.
-static pm_status add_path(reader *to)
+static pm_status add_path(reader *to, uint64_t photon)
 {
-    uint64_t *first =
-        grow(to->set.first, to->set.path_count + 1, &to->path_room, sizeof *first);
+    pm_path_set *set = &to->set;
+    uint64_t *first = grow(set->first, set->path_count + 1, &to->first_room, sizeof *first);
     if (first == NULL) {
         return no_room(to);
     }
-    to->set.first = first;
-    first[to->set.path_count++] = to->vertex_count;
+    set->first = first;
+    uint64_t *photons = grow(set->photon, set->path_count, &to->photon_room, sizeof *photons);
+    if (photons == NULL) {
+        return no_room(to);
+    }
+    set->photon = photons;
+    photons[set->path_count] = photon;
+    first[set->path_count++] = to->vertex_count;
     return PM_OK;
 }
 
@@ -66,7 +72,7 @@ static pm_status read_event(const pm_csv *csv, char *event)
     const char *text = csv->field[EVENT];
     if (strlen(text) != 1 || strchr(EVENTS, text[0]) == NULL) {
         return pm_status_fail(PM_EINPUT,
-                              "%s:%ld: event must be one of L S D V A E C, got \"%.20s\"",
+                              "%s:%ld: event must be one of L D S T V A E C, got \"%.20s\"",
                               csv->path, csv->line, text);
     }
     *event = text[0];
@@ -100,17 +106,16 @@ static pm_status read_row(const pm_csv *csv, const pm_scene *scene, reader *to)
     uint64_t photon = 0;
     uint64_t step = 0;
     pm_path_vertex vertex = {0};
-    double power[3] = {0};
     PM_TRY(pm_csv_count(csv, PHOTON, UINT64_MAX, &photon));
     PM_TRY(pm_csv_count(csv, STEP, UINT32_MAX, &step));
     PM_TRY(read_event(csv, &vertex.event));
     PM_TRY(pm_csv_point(csv, X, scene, &vertex.position));
     for (int c = 0; c < 3; c++) {
-        PM_TRY(pm_csv_positive(csv, RED + c, &power[c]));
+        PM_TRY(pm_csv_positive(csv, RED + c, &vertex.power.c[c]));
     }
     PM_TRY(check_order(csv, to, photon, step, vertex.event));
     if (step == 0) {
-        PM_TRY(add_path(to));
+        PM_TRY(add_path(to, photon));
     }
     to->photon = photon;
     to->step = step;
@@ -156,5 +161,6 @@ void pm_path_file_free(pm_path_set *paths)
 {
     free(paths->vertices);
     free(paths->first);
+    free(paths->photon);
     *paths = (pm_path_set){0};
 }

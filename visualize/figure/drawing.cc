@@ -35,9 +35,10 @@ void pm_drawing::line(pm_vec3 from, pm_vec3 to, pm_colour colour, double opacity
     lines->InsertNextCell(2, ids);
 }
 
-void pm_drawing::fading_line(pm_vec3 from, pm_vec3 to, pm_colour colour, double opacity)
+void pm_drawing::fading_line(pm_vec3 from, pm_vec3 to, pm_colour colour, double opacity,
+                             double at_end)
 {
-    const vtkIdType ids[2] = {vertex(from, colour, opacity), vertex(to, colour, 0.0)};
+    const vtkIdType ids[2] = {vertex(from, colour, opacity), vertex(to, colour, at_end)};
     lines->InsertNextCell(2, ids);
 }
 

@@ -23,7 +23,8 @@ class pm_drawing {
     vtkIdType vertex(pm_vec3 at, pm_colour colour, double opacity);
     void dot(pm_vec3 at, pm_colour colour, double opacity);
     void line(pm_vec3 from, pm_vec3 to, pm_colour colour, double opacity);
-    void fading_line(pm_vec3 from, pm_vec3 to, pm_colour colour, double opacity);
+    void fading_line(pm_vec3 from, pm_vec3 to, pm_colour colour, double opacity,
+                     double at_end = 0.0);
     /// `corner` in order around it.
     void quad(const pm_vec3 corner[4], pm_colour colour, double opacity);
     void outline(const std::vector<pm_vec3> &rim, pm_colour colour, double opacity);

@@ -9,11 +9,11 @@
 extern "C" {
 #endif
 
-/// `most` of the paths at even steps: each stretch in the colour of the event it starts from,
-/// each event a dot.
+/// `most` of the paths, picked fairly: each stretch in the colour of the event that it starts
+/// from, or of the bounces so far; each event a dot. With a legend, and the numbers behind it.
 /// @param drawn  [out] paths drawn
 pm_status pm_draw_paths(pm_figure *figure, const pm_path_set *paths, uint64_t most,
-                        uint64_t *drawn);
+                        bool by_bounce, uint64_t *drawn);
 
 #ifdef __cplusplus
 }

@@ -1,20 +1,31 @@
 // view paths: the ways that photons took.
 #include "draw_paths.h"
+#include "path_by.h"
 #include "path_file.h"
 #include "view.h"
 #include "view_kinds.h"
 
+static void write_note(pm_view *view, uint64_t all, bool by_bounce)
+{
+    char drawn[PM_VIEW_GROUPED_MAX];
+    char of[PM_VIEW_GROUPED_MAX];
+    pm_view_note(view, "%s\n%s of %s paths drawn, picked evenly from the file",
+                 by_bounce ? "a path pales with every bounce: every surface or fog particle "
+                             "that turns the photon is one, glass too"
+                           : "every photon leaves the light and flies until a surface absorbs "
+                             "it or it leaves the scene",
+                 pm_view_grouped(view->drawn, drawn), pm_view_grouped(all, of));
+}
+
 static pm_status draw(pm_view *view)
 {
     pm_path_set paths;
-    char drawn[PM_VIEW_GROUPED_MAX];
-    char all[PM_VIEW_GROUPED_MAX];
+    bool by_bounce = false;
+    PM_TRY(pm_path_by(view, &by_bounce));
     PM_TRY(pm_path_file_read(view->files[0], &view->scene, &paths));
-    pm_status status = pm_draw_paths(view->figure, &paths, view->options->paths, &view->drawn);
-    pm_view_note(view,
-                 "from the light until a surface absorbs them or they leave the scene\n"
-                 "%s of %s paths drawn",
-                 pm_view_grouped(view->drawn, drawn), pm_view_grouped(paths.path_count, all));
+    pm_status status =
+        pm_draw_paths(view->figure, &paths, view->options->paths, by_bounce, &view->drawn);
+    write_note(view, paths.path_count, by_bounce);
     pm_path_file_free(&paths);
     return status;
 }
@@ -26,7 +37,7 @@ const pm_view_kind pm_view_paths = {
     .files_least = 1,
     .files_most = 1,
     .scene = PM_VIEW_IN_SCENE,
-    .options = "paths",
+    .options = "by paths",
     .title = "Photon paths",
     .draw = draw,
 };
