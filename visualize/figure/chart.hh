@@ -42,6 +42,46 @@ struct pm_chart {
     bool closed;
 };
 
+/// A chart while it is drawn. Pixels are counted from the bottom left.
+struct pm_chart_sheet {
+    const pm_chart *chart;
+    pm_figure *figure;
+    double left, bottom, width, height; // of the rectangle between the axes
+    std::vector<pm_chart_tick> x_ticks, y_ticks;
+    double pixels(double at900) const
+    {
+        return figure->pixels(at900);
+    }
+    double px(double at) const
+    {
+        return left + at * width;
+    }
+    double py(double at) const
+    {
+        return bottom + at * height;
+    }
+};
+
+/// An entry of the legend, and where it stands: the left middle of its swatch.
+struct pm_chart_entry {
+    const pm_chart_series *series;
+    double x, y;
+};
+
+// Pixels of a figure 900 high.
+const double pm_chart_label_size = 17.0;
+const double pm_chart_marker_size = 11.0;
+
+/// Entries in rows from `left` to `right`, the first row's middle at `top`.
+std::vector<pm_chart_entry> pm_chart_place_legend(const pm_chart_sheet &sheet, double left,
+                                                  double right, double top);
+void pm_chart_draw_legend(const pm_chart_sheet &sheet,
+                          const std::vector<pm_chart_entry> &places);
+void pm_chart_draw_data(const pm_chart_sheet &sheet);
+
+/// Each word beside its point, where it hides the least of curves, dots and other words.
+void pm_chart_draw_words(const pm_chart_sheet &sheet);
+
 /// Puts a closed chart on its figure's page.
 /// @return the rectangle between its axes
 pm_rect pm_chart_draw(const pm_chart *chart);
