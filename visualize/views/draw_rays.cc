@@ -13,15 +13,17 @@
 
 namespace {
 
-const double arrow_opacity = 0.85;
-const double barb = 0.26; // of the arrow's length
+const double shaft_opacity = 0.45; // where many start at one place, each is still to be seen
+const double head_opacity = 0.9;
+const double dot_opacity = 0.75;
+const double barb = 0.1; // of the arrow's length
 
 void add_arrow(pm_drawing *drawing, const pm_ray_shown &photon, double length, pm_vec3 eye,
                pm_colour colour)
 {
     pm_vec3 way = photon.ray->direction;
     pm_vec3 tip = pm_vec_along(photon.start, way, length);
-    drawing->line(photon.start, tip, colour, arrow_opacity);
+    drawing->line(photon.start, tip, colour, shaft_opacity);
     pm_vec3 across = pm_vec_cross(way, pm_vec_sub(eye, tip));
     double wide = pm_vec_length(across);
     if (wide == 0.0) {
@@ -29,8 +31,8 @@ void add_arrow(pm_drawing *drawing, const pm_ray_shown &photon, double length, p
     }
     pm_vec3 back = pm_vec_along(tip, way, -barb * length);
     for (double side : {-1.0, 1.0}) {
-        pm_vec3 end = pm_vec_along(back, across, side * 0.45 * barb * length / wide);
-        drawing->line(tip, end, colour, arrow_opacity);
+        pm_vec3 end = pm_vec_along(back, across, side * 0.5 * barb * length / wide);
+        drawing->line(tip, end, colour, head_opacity);
     }
 }
 
@@ -81,7 +83,7 @@ pm_status pm_draw_rays(pm_figure *figure, const pm_ray_choice *choice, double do
         for (uint64_t i = 0; i < choice->count; i++) {
             const pm_ray_shown &photon = choice->shown[i];
             pm_colour colour = pm_light_colour(static_cast<int>(photon.ray->light));
-            dots.dot(photon.start, colour, 1.0);
+            dots.dot(photon.start, colour, dot_opacity);
             if (photon.arrow) {
                 add_arrow(&arrows, photon, length, figure->viewpoint.position, colour);
             }

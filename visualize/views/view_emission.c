@@ -9,8 +9,8 @@
 #include <stdio.h>
 
 #define DOTS 20000
-#define ARROWS 500
-#define ARROW 0.16 // scene radii
+#define ARROWS 160
+#define ARROW 0.3 // scene radii
 #define NEARLY 1e-3
 
 enum { LINE_MAX_CHARS = 96, LIGHTS_LISTED = PM_LIGHT_COLOURS };
@@ -112,7 +112,7 @@ static pm_status draw_choice(pm_view *view, const pm_ray_set *rays, int only)
     pm_ray_choice choice;
     PM_TRY(pm_ray_pick(rays, &view->scene, only, DOTS, ARROWS, &choice));
     view->drawn = choice.count;
-    double dot_size = choice.count > 3000 ? 2.5 : 5.0;
+    double dot_size = choice.count > 500 ? 3.0 : 5.0;
     pm_status status =
         pm_draw_rays(view->figure, &choice, dot_size, ARROW * view->scene.radius);
     if (status == PM_OK) {
