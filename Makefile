@@ -41,7 +41,7 @@ libjansson-dev    include/jansson.h                  all      reports (JSON)
 libgsl-dev        include/gsl/gsl_cdf.h              tests    statistics, in the test programs only
 g++               bin:g++                            view     compiles the files that call VTK
 libvtk9-dev       include/vtk-9*                     view     pictures of photons, paths and trees
-libwebp-dev       include/webp/mux.h                 view     small pictures and films (WebP)
+libwebp-dev       include/webp/mux.h                 tests    small pictures and films (WebP)
 xvfb              bin:Xvfb                           tests    a display for the windows of `view`
 xdotool           bin:xdotool                        tests    keys and mouse for these windows
 libegl-dev        include/EGL/egl.h                  view     draws without a display
@@ -63,13 +63,13 @@ PART_CFLAGS := -DPM_EMBREE=$(EMBREE) \
   $(shell pkg-config --cflags $(PACKAGES) OpenEXR 2>/dev/null | sed 's/-I/-isystem /g')
 PART_LIBS := $(shell pkg-config --libs $(PACKAGES) 2>/dev/null) -lOpenEXRCore -lembree$(EMBREE) -lm
 GSL_LIBS := -lgsl -lgslcblas
+WEBP_LIBS := -lwebp -lwebpmux
 # VTK has no pkg-config file in Debian 12.
 VTK_MODULES := IOXML IOImage RenderingAnnotation RenderingOpenGL2 RenderingFreeType \
   InteractionStyle RenderingUI RenderingCore FiltersSources CommonColor CommonExecutionModel \
   CommonTransforms CommonDataModel CommonMath CommonCore ChartsCore ViewsContext2D ViewsCore \
   RenderingContextOpenGL2 RenderingContext2D sys
-VTK_LIBS := -Wl,--as-needed $(VTK_MODULES:%=-lvtk%-$(VTK_SUFFIX)) -lGLEW -lEGL -ldl \
-  -lwebp -lwebpmux
+VTK_LIBS := -Wl,--as-needed $(VTK_MODULES:%=-lvtk%-$(VTK_SUFFIX)) -lGLEW -lEGL -ldl
 
 # A make below this one, with as many jobs as there are cores unless told otherwise.
 AGAIN = $(MAKE) --no-print-directory $(if $(findstring -j,$(MAKEFLAGS)),,-j$(JOBS))
@@ -141,7 +141,7 @@ $(LAB_PROGRAMS:%=$(BIN)/%): $(BIN)/%: $(BUILD)/$$(MAIN_%).o $$(call objects,$$(W
 $(BIN)/view: $(BUILD)/visualize/view.o $(VIEWS) $(VISUALIZE) $(CORE)
 	@mkdir -p $(@D)
 	$(call tell,link $@)
-	$(HIDE)$(LINK_CXX) -o $@ $^ $(VTK_LIBS) $(PART_LIBS)
+	$(HIDE)$(LINK_CXX) -o $@ $^ $(VTK_LIBS) $(WEBP_LIBS) $(PART_LIBS)
 
 # The meshes are in git, so nothing else builds them.
 MAKE_MESHES := $(BUILD)/scenes/meshes/make
@@ -184,7 +184,7 @@ $(TESTS): DEFINE += -Itests
 
 $(BUILD)/tests/run: $(RUNNER) $(TESTS) $(CORE) $(VISUALIZE)
 	$(call tell,link $@)
-	$(HIDE)$(LINK) -o $@ $(sort $^) $(PART_LIBS) $(GSL_LIBS)
+	$(HIDE)$(LINK) -o $@ $(sort $^) $(PART_LIBS) $(GSL_LIBS) $(WEBP_LIBS) -lwebpdemux
 
 $(ATTACKS): $(BUILD)/tests/runner/attacks.o $(RUNNER) $(BUILD)/core/status.o
 	$(call tell,link $@)
@@ -192,7 +192,7 @@ $(ATTACKS): $(BUILD)/tests/runner/attacks.o $(RUNNER) $(BUILD)/core/status.o
 
 $(CHARTS): %: %.o $(call objects,$(wildcard visualize/figure/*.c*)) $(CORE)
 	$(call tell,link $@)
-	$(HIDE)$(LINK_CXX) -o $@ $^ $(VTK_LIBS) $(PART_LIBS)
+	$(HIDE)$(LINK_CXX) -o $@ $^ $(VTK_LIBS) $(WEBP_LIBS) $(PART_LIBS)
 
 build-tests: all $(BUILD)/tests/run $(ATTACKS) $(CHARTS) $(MAKE_MESHES)
 

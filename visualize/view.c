@@ -95,6 +95,21 @@ static void face_of(const pm_view_kind *kind, face *f)
     f->program.does = kind->shows;
 }
 
+/// A name with an unknown ending is refused before any work.
+static pm_status check_ending(const char *path)
+{
+    static const char *const endings[] = {".png", ".webp", ".vtp"};
+    for (size_t i = 0; i < sizeof endings / sizeof endings[0]; i++) {
+        if (pm_view_ends_with(path, endings[i])) {
+            return PM_OK;
+        }
+    }
+    return pm_status_fail(PM_EINPUT,
+                          "view: -o must end in .png, .webp (smaller, not exact) or .vtp (the "
+                          "data, for ParaView), got %s",
+                          path);
+}
+
 static pm_status check_usage(const pm_view *view)
 {
     const pm_view_kind *kind = view->kind;
@@ -112,7 +127,7 @@ static pm_status check_usage(const pm_view *view)
     if (options->output == NULL && !options->interactive) {
         return pm_status_fail(PM_EINPUT, "%s", "view: -o FILE must be given, or --interactive");
     }
-    return PM_OK;
+    return options->output != NULL ? check_ending(options->output) : PM_OK;
 }
 
 /// Takes the reference.

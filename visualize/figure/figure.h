@@ -73,6 +73,10 @@ pm_status pm_figure_open_flat(int width, int height, pm_figure **figure);
 pm_status pm_figure_panel(pm_figure *figure, const pm_rect *where,
                           const pm_viewpoint *viewpoint);
 
+/// Its size in pixels.
+/// @param width, height  [out]
+void pm_figure_size(const pm_figure *figure, int *width, int *height);
+
 /// What of the figure title and right column leave free, less a small margin.
 pm_rect pm_figure_room(const pm_figure *figure);
 

@@ -15,6 +15,12 @@ int whole(double pixels)
 
 } // namespace
 
+void pm_figure_size(const pm_figure *figure, int *width, int *height)
+{
+    *width = figure->width;
+    *height = figure->height;
+}
+
 pm_rect pm_figure_room(const pm_figure *figure)
 {
     int edge = whole(figure->pixels(margin));

@@ -72,9 +72,9 @@ pm_status pm_draw_paths(pm_figure *figure, const pm_path_set *paths, uint64_t mo
                         bool by_bounce, uint64_t *drawn)
 {
     return pm_figure_guard("paths", [&] {
-        pm_path_strokes strokes(by_bounce);
-        path_table table;
         uint64_t count = paths->path_count < most ? paths->path_count : most;
+        pm_path_strokes strokes(by_bounce, count);
+        path_table table;
         for (uint64_t i = 0; i < count; i++) {
             uint64_t p = pm_path_pick(paths->path_count, count, i);
             const pm_path_vertex *path = &paths->vertices[paths->first[p]];
@@ -82,9 +82,7 @@ pm_status pm_draw_paths(pm_figure *figure, const pm_path_set *paths, uint64_t mo
             strokes.add(path, vertices, HUGE_VAL);
             table.add(path, vertices, paths->photon[p]);
         }
-        figure->renderer->AddActor(strokes.lines.actor(figure->pixels(1.7), 1.0));
-        figure->renderer->AddActor(
-            strokes.dots.actor(1.0, figure->pixels(by_bounce ? 4.5 : 6.0)));
+        strokes.show(figure);
         table.keep(figure);
         *drawn = count;
         return by_bounce ? pm_path_legend_by_bounce(figure, strokes, strokes)

@@ -35,12 +35,12 @@ std::string bounce_words(int bounces)
                                             : "after " + number + " bounces";
 }
 
-pm_status explain_lines(pm_figure *figure, const char *first, const char *second)
+pm_status explain_lines(pm_figure *figure)
 {
     entry_list lines;
-    lines.add(PM_SWATCH_NONE, pm_colour_named(PM_COLOUR_WHITE), first);
-    lines.add(PM_SWATCH_NONE, pm_colour_named(PM_COLOUR_WHITE), second);
-    return lines.show(figure, "line: on the way");
+    lines.add(PM_SWATCH_NONE, pm_colour_named(PM_COLOUR_WHITE), "A line has the colour of");
+    lines.add(PM_SWATCH_NONE, pm_colour_named(PM_COLOUR_WHITE), "the dot that it starts from.");
+    return lines.show(figure, "dots and lines");
 }
 
 } // namespace
@@ -52,13 +52,13 @@ pm_status pm_path_legend_by_event(pm_figure *figure, const pm_path_strokes &so_f
     for (int i = 0; i < PM_PATH_EVENTS; i++) {
         const pm_path_look *look = pm_path_look_at(i);
         if (whole.events[i] > 0) {
-            list.add(look->event == 'E' ? PM_SWATCH_NONE : PM_SWATCH_DOT,
-                     pm_colour_named(look->colour),
+            bool line = look->event == 'L' || look->event == 'E';
+            list.add(line ? PM_SWATCH_LINE : PM_SWATCH_DOT, pm_colour_named(look->colour),
                      look->text + (": " + std::to_string(so_far.events[i])));
         }
     }
-    PM_TRY(list.show(figure, "dot: what happens there"));
-    return explain_lines(figure, "in the colour of the event", "that it starts from");
+    PM_TRY(list.show(figure, "what happens to them"));
+    return explain_lines(figure);
 }
 
 pm_status pm_path_legend_by_bounce(pm_figure *figure, const pm_path_strokes &so_far,

@@ -12,7 +12,7 @@ extern "C" {
 #endif
 
 #define PM_PATH_EVENTS 8
-#define PM_PATH_BOUNCES 7 // colours: 0 to 5 bounces, and 6 or more
+#define PM_PATH_BOUNCES 6 // colours: 0 to 4 bounces, and 5 or more
 
 /// One kind of event: its letter in a dump, its colour, its words in a legend.
 typedef struct {

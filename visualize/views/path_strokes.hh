@@ -6,6 +6,7 @@
 
 #include "core.hh"
 #include "drawing.hh"
+#include "figure.hh"
 #include "figure_data.h"
 #include "path_look.h"
 
@@ -14,12 +15,16 @@
 class pm_path_strokes {
   public:
     /// @param by_bounce  coloured by the bounces so far, else by what happened last
-    explicit pm_path_strokes(bool by_bounce);
+    /// @param paths      that will be added: the more they are, the fainter is what all do
+    pm_path_strokes(bool by_bounce, uint64_t paths);
 
     /// Adds one path of `count` vertices up to `reach` [m] from its light, measured along it.
     void add(const pm_path_vertex *path, uint64_t count, double reach);
 
-    pm_drawing lines, dots, heads;
+    /// Puts it on the current panel.
+    /// @return the actors, for a film that takes them off again
+    std::vector<vtkSmartPointer<vtkActor>> show(pm_figure *figure) const;
+
     // What was added, by kind of event and by bounces so far: vertices, and stretches begun.
     uint64_t events[PM_PATH_EVENTS] = {};
     uint64_t bounces[PM_PATH_BOUNCES] = {};
@@ -27,9 +32,12 @@ class pm_path_strokes {
 
   private:
     pm_colour colour_from(const pm_path_vertex *path, uint64_t i) const;
+    double opacity_from(const pm_path_vertex *path, uint64_t i) const;
     void stretch(const pm_path_vertex *path, uint64_t i, double part);
 
+    pm_drawing faint, bright, dots, heads;
     bool by_bounce;
+    double common; // opacity of the stretches that every path has
 };
 
 /// Length [m] of a path of `count` vertices.

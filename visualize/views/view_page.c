@@ -2,6 +2,7 @@
 #include "draw_scene.h"
 #include "interrupt.h"
 #include "view.h"
+#include "webp.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -98,20 +99,36 @@ pm_status pm_view_scene_panel(pm_view *view, const pm_rect *where, const char *h
     return pm_draw_scene(view->figure, &view->scene);
 }
 
-static bool ends_with(const char *path, const char *ending)
+bool pm_view_ends_with(const char *path, const char *ending)
 {
     size_t length = strlen(path);
     size_t tail = strlen(ending);
     return length > tail && strcmp(path + length - tail, ending) == 0;
 }
 
+static pm_status write_webp(pm_figure *figure, const char *path)
+{
+    uint8_t *pixels = NULL;
+    int width;
+    int height;
+    pm_figure_size(figure, &width, &height);
+    PM_TRY(pm_figure_pixels(figure, &pixels));
+    pm_status status = pm_interrupt_check();
+    if (status == PM_OK) {
+        status = pm_webp_write_bytes(path, pixels, width, height);
+    }
+    free(pixels);
+    return status;
+}
+
 static pm_status write_file(pm_view *view, const char *path)
 {
     PM_TRY(pm_interrupt_check());
-    if (ends_with(path, ".vtp")) {
+    if (pm_view_ends_with(path, ".vtp")) {
         return pm_figure_export(view->figure, path, view->scene.center);
     }
-    return pm_figure_write(view->figure, path);
+    return pm_view_ends_with(path, ".webp") ? write_webp(view->figure, path)
+                                            : pm_figure_write(view->figure, path);
 }
 
 pm_status pm_view_finish(pm_view *view)

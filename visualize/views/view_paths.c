@@ -10,10 +10,11 @@ static void write_note(pm_view *view, uint64_t all, bool by_bounce)
     char drawn[PM_VIEW_GROUPED_MAX];
     char of[PM_VIEW_GROUPED_MAX];
     pm_view_note(view, "%s\n%s of %s paths drawn, picked evenly from the file",
-                 by_bounce ? "a path pales with every bounce: every surface or fog particle "
-                             "that turns the photon is one, glass too"
-                           : "every photon leaves the light and flies until a surface absorbs "
-                             "it or it leaves the scene",
+                 by_bounce
+                     ? "from yellow to purple, bounce by bounce; going into glass or out of "
+                       "it is a bounce, too"
+                     : "every photon leaves the light and flies until a surface absorbs "
+                       "it or it leaves the scene",
                  pm_view_grouped(view->drawn, drawn), pm_view_grouped(all, of));
 }
 
