@@ -123,6 +123,7 @@ MAIN_compare := labs/07_rendering/compare
 # What a program has beside its main object and core.
 WITH_balancing := labs/04_balancing/tree labs/04_balancing/grown_tree labs/04_balancing/tree_dump \
   labs/04_balancing/visit_dump
+WITH_filtering := labs/06_filtering/kernels labs/06_filtering/weighed
 LAB_PROGRAMS := $(foreach p,emission tracing storage balancing radiance filtering render \
   reference compare,\
   $(if $(wildcard $(MAIN_$(p)).c),$(p)))

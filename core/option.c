@@ -102,6 +102,8 @@ static const pm_option table[] = {
     {"on", "on", PM_OPTION_TEXT, AT(on), 0, 0, 0, "SHAPE",
      "id of a rectangle that --grid covers with points", "none"},
     {"grid", "grid", PM_OPTION_SIZE, AT(grid_w), 0, 1, 65536, "WxH", "points on --on", "none"},
+    {"part", "part", PM_OPTION_PART, AT(part), AT(has_part), 0, 1, "U0,V0,U1,V1",
+     "the part of --on that --grid covers, along its first and second edge", "0,0,1,1"},
     {"runs", "runs", PM_OPTION_COUNT32, AT(runs), 0, 1, 1e6, "M", "independent maps", NULL},
     {"photon", "photon", PM_OPTION_COUNT, AT(photon), AT(has_photon), 0, MANY, "I",
      "replay the photon of this index, event by event", "none"},

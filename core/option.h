@@ -20,6 +20,7 @@ typedef enum {
     PM_OPTION_POINT,     // pm_vec3
     PM_OPTION_DIRECTION, // pm_vec3, made unit
     PM_OPTION_SIZE,      // int, int: WxH
+    PM_OPTION_PART,      // double[4] in [0, 1]: U0,V0,U1,V1, both ascending
     PM_OPTION_DEFINE,    // one more of options->define
     PM_OPTION_MAP,       // one more of options->map
 } pm_option_kind;

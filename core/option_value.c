@@ -129,27 +129,27 @@ static pm_status set_choice(const pm_option *option, const char *text, pm_option
     return PM_OK;
 }
 
-static bool read_vector(const char *text, pm_vec3 *vector)
+/// `count` numbers with commas between them, and nothing else.
+static bool read_numbers(const char *text, double *numbers, int count)
 {
-    double parts[3];
     const char *at = text;
-    for (int axis = 0; axis < 3; axis++) {
+    for (int i = 0; i < count; i++) {
         char *end;
-        if (!read_real(at, &end, &parts[axis]) || *end != (axis < 2 ? ',' : '\0')) {
+        if (!read_real(at, &end, &numbers[i]) || *end != (i < count - 1 ? ',' : '\0')) {
             return false;
         }
         at = end + 1;
     }
-    *vector = pm_vec(parts[0], parts[1], parts[2]);
     return true;
 }
 
 static pm_status set_vector(const pm_option *option, const char *text, pm_options *options)
 {
-    pm_vec3 vector;
-    if (!read_vector(text, &vector)) {
+    double parts[3];
+    if (!read_numbers(text, parts, 3)) {
         return refuse(option, "three finite numbers x,y,z", text);
     }
+    pm_vec3 vector = pm_vec(parts[0], parts[1], parts[2]);
     if (option->kind == PM_OPTION_DIRECTION) {
         double reach = pm_vec_reach(vector);
         if (reach == 0.0) {
@@ -160,6 +160,21 @@ static pm_status set_vector(const pm_option *option, const char *text, pm_option
         vector = pm_vec_normalize(vector);
     }
     put(option, options, &vector, sizeof vector);
+    return PM_OK;
+}
+
+static pm_status set_part(const pm_option *option, const char *text, pm_options *options)
+{
+    double part[4];
+    bool fits = read_numbers(text, part, 4);
+    for (int axis = 0; axis < 2 && fits; axis++) {
+        fits = part[axis] >= option->least && part[axis] < part[axis + 2] &&
+               part[axis + 2] <= option->most;
+    }
+    if (!fits) {
+        return refuse(option, "U0,V0,U1,V1 from 0 to 1 with U0 < U1 and V0 < V1", text);
+    }
+    put(option, options, part, sizeof part);
     return PM_OK;
 }
 
@@ -241,6 +256,8 @@ static pm_status set_value(const pm_option *option, char *text, pm_options *opti
         return set_vector(option, text, options);
     case PM_OPTION_SIZE:
         return set_size(option, text, options);
+    case PM_OPTION_PART:
+        return set_part(option, text, options);
     case PM_OPTION_DEFINE:
         return add_define(option, text, options);
     case PM_OPTION_TEXT:

@@ -75,9 +75,11 @@ typedef struct {
     const char *points; // file of points
     const char *on;     // id of a rectangle that is covered by a grid of points
     int grid_w, grid_h; // --grid; 0: not given
-    uint32_t runs;      // independent maps
-    bool has_photon;    // --photon was given
-    uint64_t photon;    // replay this one
+    bool has_part;      // --part was given
+    double part[4];  // of the rectangle: u and v where the grid starts, u and v where it ends
+    uint32_t runs;   // independent maps
+    bool has_photon; // --photon was given
+    uint64_t photon; // replay this one
 
     // files in and out
     const char *output; // -o

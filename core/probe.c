@@ -150,10 +150,14 @@ static pm_status from_grid(const char *program, const pm_options *options,
     uint32_t columns = (uint32_t)options->grid_w;
     uint64_t count = (uint64_t)columns * (uint64_t)options->grid_h;
     PM_TRY(make_room(probes, count));
+    static const double whole[4] = {0.0, 0.0, 1.0, 1.0};
+    const double *part = options->has_part ? options->part : whole;
+    double across = part[2] - part[0];
+    double along = part[3] - part[1];
     pm_vec3 normal = pm_vec_normalize(pm_vec_cross(shape->edge[0], shape->edge[1]));
     for (uint64_t i = 0; i < count; i++) {
-        double u = ((double)(i % columns) + 0.5) / options->grid_w;
-        double v = ((double)(i / columns) + 0.5) / options->grid_h;
+        double u = part[0] + ((double)(i % columns) + 0.5) / options->grid_w * across;
+        double v = part[1] + ((double)(i / columns) + 0.5) / options->grid_h * along;
         pm_vec3 at = pm_vec_along(shape->corner, shape->edge[0], u);
         probes->points[i].at = pm_vec_along(at, shape->edge[1], v);
         probes->points[i].normal = shape->flipped ? pm_vec_negate(normal) : normal;
@@ -178,6 +182,9 @@ pm_status pm_probes_make(const char *program, const pm_options *options, const p
     }
     if (options->grid_w != 0 && options->on == NULL) {
         return pm_status_fail(PM_EINPUT, "%s: --grid goes with --on only", program);
+    }
+    if (options->has_part && options->on == NULL) {
+        return pm_status_fail(PM_EINPUT, "%s: --part goes with --on only", program);
     }
     pm_probes made = {0};
     pm_status status = options->has_at           ? from_options(program, options, scene, &made)

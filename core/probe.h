@@ -17,7 +17,8 @@ typedef struct {
 /// What `options` ask for.
 ///
 /// A grid has its points in the middles of equal cells; the first of its two numbers counts
-/// along the rectangle's first edge. Its normals are the rectangle's. In a scene that has media
+/// along the rectangle's first edge; with --part it covers that part alone. Its normals are the
+/// rectangle's. In a scene that has media
 /// --at may stand without --normal; whether the point lies in one is not looked at.
 ///
 /// @param program  its name, for messages

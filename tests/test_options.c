@@ -20,7 +20,7 @@ static const pm_options_program render = {
     .positional_least = 1,
     .positional_most = 1,
     .options = "n photons global-photons caustic-photons k r shape filter kernel-constants "
-               "flatness gather spp exposure packing max-bounces at normal size preset "
+               "flatness gather spp exposure packing max-bounces part at normal size preset "
                "direct caustics precompute projection "
                "media march-step progressive passes checkpoint resume "
                "only o map check report max-rel-mse",
@@ -183,6 +183,11 @@ static void numbers_are_refused_unless_whole_and_in_range(void)
         {"--size 0x5", "got \"0x5\""},
         {"--size 5x65537", "got \"5x65537\""},
         {"--size 1x2x3", "got \"1x2x3\""},
+        {"--part 0,0,1", "--part must be U0,V0,U1,V1 from 0 to 1 with U0 < U1 and V0 < V1"},
+        {"--part 0,0,1,1.1", "got \"0,0,1,1.1\""},
+        {"--part -0.1,0,1,1", "got \"-0.1,0,1,1\""},
+        {"--part 0.5,0,0.5,1", "got \"0.5,0,0.5,1\""},
+        {"--part 0,0.6,1,0.5", "got \"0,0.6,1,0.5\""},
         {"-D sigma", "-D must be NAME=VALUE, got \"sigma\""},
         {"-D =1", "-D must be NAME=VALUE, got \"=1\""},
     };

@@ -90,6 +90,29 @@ static void a_grid_covers_its_rectangle(void)
     pm_probes_free(&probes);
 }
 
+static void a_grid_covers_a_part_of_its_rectangle(void)
+{
+    pm_scene scene = room();
+    pm_options options = pm_options_defaults();
+    const double part[4] = {0.5, 0.25, 1.0, 0.75};
+    options.on = "floor";
+    options.grid_w = options.grid_h = 2;
+    options.has_part = true;
+    memcpy(options.part, part, sizeof part);
+    pm_probes probes;
+    CHECK_OK(pm_probes_make("lab", &options, &scene, &probes));
+    CHECK(probes.count == 4 && probes.columns == 2);
+    check_vector(probes.points[0].at, 0.25, -0.5, 0.0);
+    check_vector(probes.points[3].at, 0.75, 0.5, 0.0);
+    pm_probes_free(&probes);
+    options.on = NULL;
+    options.grid_w = options.grid_h = 0;
+    options.has_at = options.has_normal = true;
+    pm_probes none = {0};
+    CHECK_FAILS(pm_probes_make("lab", &options, &scene, &none), PM_EINPUT,
+                "--part goes with --on only");
+}
+
 static void refuse(const pm_options *options, pm_status code, const char *why)
 {
     pm_scene scene = room();
@@ -145,4 +168,6 @@ PM_TESTS({"probe.1", "a point comes in file coordinates and leaves centred",
          {"probe.4", "asking in no way, two ways or half a way is refused",
           wrong_ways_of_asking_are_refused},
          {"probe.5", "a wrong file of points is refused line by line",
-          wrong_files_are_refused_line_by_line})
+          wrong_files_are_refused_line_by_line},
+         {"probe.6", "a grid covers the part of its rectangle that is asked for",
+          a_grid_covers_a_part_of_its_rectangle})
