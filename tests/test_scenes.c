@@ -26,6 +26,7 @@ static const row rows[] = {
     {"cornell-glossy", "light-source", "6.45", 0},
     {"cornell-spheres", "light-source", "6.45", 0},
     {"furnace", "glow", "75.398", 12},
+    {"furnace-walls", "floor-glow", "12.566", 0},
     {"glass-fog", "light", "42.6367", 12},
     {"integrating-sphere", "lamp", "12.566", 0},
     {"lecture", "light-source", "6.45", 12},

@@ -125,7 +125,7 @@ pm_status add_measures(pm_figure *figure, const pm_gathered *g)
     measures.dot(g->at, white, 1.0);
     figure->renderer->AddActor(measures.actor(figure->pixels(2.0), figure->pixels(7.0)));
     PM_TRY(pm_figure_mark(figure, pm_vec_along(end, g->normal, 0.13 * g->radius), "normal"));
-    return pm_figure_mark(figure, pm_vec_along(g->at, right, 0.55 * g->radius), "r");
+    return pm_figure_mark(figure, pm_vec_along(g->at, right, 1.09 * g->radius), "r");
 }
 
 pm_colour colour_of(const pm_gathered *g, const pm_gathered_photon &photon)
@@ -158,8 +158,8 @@ void add_photons(pm_figure *figure, const pm_gathered *g)
             faint.dot(photon.position, colour_of(g, photon), dim);
         }
     }
-    figure->renderer->AddActor(faint.actor(1.0, figure->pixels(3.2)));
-    figure->renderer->AddActor(bright.actor(1.0, figure->pixels(7.0)));
+    figure->renderer->AddActor(faint.actor(1.0, figure->pixels(4.0)));
+    figure->renderer->AddActor(bright.actor(1.0, figure->pixels(8.0)));
 }
 
 template <class Array> vtkSmartPointer<Array> named(const char *name, int components)

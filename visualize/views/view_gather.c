@@ -12,9 +12,10 @@
 
 #define FILES_MOST 2
 
-static const double around = 1.3;    // half side of what is shown, in radii
+static const double around = 0.85;   // half side of what is shown, in radii
 static const double height = 0.47;   // sine of the angle from which a surface is looked at
 static const double beside = 1.1;    // how far the eye turns to face a wall nearby
+static const double tallest = 1.25;  // height over width of a panel
 static const double lines = 5.0;     // of text under a panel
 static const double line_900 = 27.0; // pixels from one to the next
 static const double size_900 = 18.0;
@@ -133,7 +134,7 @@ static pm_status write_account(const pm_view *view, const pm_gathered *g, const 
     snprintf(text, sizeof text, "found %llu photons, radius r = %.4g m",
              (unsigned long long)g->found, g->radius);
     PM_TRY(write_line(view, under, 0, PM_TEXT_PLAIN, text));
-    snprintf(text, sizeof text, "%llu count here, %llu on another surface",
+    snprintf(text, sizeof text, "%llu count on this surface, %llu on another",
              (unsigned long long)a->here, (unsigned long long)a->elsewhere);
     PM_TRY(write_line(view, under, 1, PM_TEXT_PLAIN, text));
     snprintf(text, sizeof text, "irradiance %.4g W/m\xC2\xB2", told);
@@ -143,7 +144,7 @@ static pm_status write_account(const pm_view *view, const pm_gathered *g, const 
     if (fabs(a->sum - told) <= 1e-3 * told) {
         return PM_OK;
     }
-    snprintf(text, sizeof text, "but the powers over \xCF\x80 r\xC2\xB2 are %.4g", a->sum);
+    snprintf(text, sizeof text, "but the powers over pi r\xC2\xB2 are %.4g", a->sum);
     return write_line(view, under, 4, PM_TEXT_STRONG, text);
 }
 
@@ -154,7 +155,9 @@ static pm_status draw_region(pm_view *view, const pm_gathered *g, double reach,
 {
     char heading[80];
     double text = lines * pm_figure_pixels_of(view->figure, line_900);
-    pm_rect where = {cell->x, cell->y, cell->width, cell->height - (int)text};
+    int high = cell->height - (int)text;
+    int most = (int)(tallest * cell->width);
+    pm_rect where = {cell->x, cell->y, cell->width, high < most ? high : most};
     pm_viewpoint viewpoint = aim(&view->scene, g, reach, &where);
     if (g->disc) {
         snprintf(heading, sizeof heading, "disc, height / radius %g", g->flatness);
@@ -220,7 +223,7 @@ static pm_status draw(pm_view *view)
     }
     pm_vec3 at = pm_vec_add(all->region[0].at, view->scene.center);
     pm_view_note(view,
-                 "irradiance = power of the nearest photons over the area \xCF\x80 r\xC2\xB2 "
+                 "irradiance = power of the nearest photons over the area pi r\xC2\xB2 "
                  "that they fill\nat %.4g, %.4g, %.4g; bright: the photons found, dim: the "
                  "others around",
                  at.x, at.y, at.z);
