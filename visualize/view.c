@@ -127,6 +127,11 @@ static pm_status check_usage(const pm_view *view)
     if (options->output == NULL && !options->interactive) {
         return pm_status_fail(PM_EINPUT, "%s", "view: -o FILE must be given, or --interactive");
     }
+    if (options->interactive && options->json) {
+        return pm_status_fail(PM_EINPUT, "%s",
+                              "view: --json and --interactive cannot be together: picks are "
+                              "told on standard output, too");
+    }
     return options->output != NULL ? check_ending(options->output) : PM_OK;
 }
 
@@ -199,11 +204,11 @@ static pm_status run(const pm_options *options)
                     .files = options->positional + 1,
                     .file_count = options->positional_count - 1};
     PM_TRY(check_usage(&view));
+    PM_TRY(pm_window_choose(options->display_x, options->interactive));
     if (options->scene != NULL) {
         PM_TRY(pm_scene_read(options->scene, options->define, options->define_count, false,
                              &view.scene));
     }
-    pm_window_choose(options->display_x);
     pm_status status = make(&view);
     if (status == PM_OK && options->json) {
         status = print_answer(&view);

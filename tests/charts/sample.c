@@ -1,11 +1,13 @@
 // A page of charts with known data, for tests and for the eye: everything that chart.h can do.
 //
-//     charts OUT.png [WxH]     prints where everything is, as `view --json` does
+//     sample OUT.png [WxH]      prints where everything is, as `view --json` does
+//     sample OUT.png WxH FAULT  puts one of these on a chart: nan, zero, ends, late
 #include "chart.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #define COUNT 60
 
@@ -113,11 +115,32 @@ static pm_status draw(pm_figure *figure)
     return pm_figure_title(figure, "Charts", "every thing that a chart can show");
 }
 
-static pm_status make(const char *path, int width, int height)
+/// What a chart must refuse.
+static pm_status draw_fault(pm_figure *figure, const char *fault)
+{
+    const double good[] = {1.0, 2.0};
+    const double bad[] = {1.0, strcmp(fault, "nan") == 0 ? (double)NAN : 0.0};
+    pm_chart_axes axes = {.heading = "Faults", .y_log = strcmp(fault, "zero") == 0};
+    if (strcmp(fault, "ends") == 0) {
+        axes.x_low = 2.0;
+        axes.x_high = 1.0;
+    }
+    pm_rect where = pm_figure_room(figure);
+    pm_colour white = pm_colour_named(PM_COLOUR_WHITE);
+    pm_chart *chart = NULL;
+    PM_TRY(pm_chart_open(figure, &where, &axes, &chart));
+    if (strcmp(fault, "late") == 0) {
+        PM_TRY(pm_chart_close(chart));
+    }
+    PM_TRY(pm_chart_curve(chart, NULL, white, PM_CHART_LINE, good, bad, 2));
+    return pm_chart_close(chart);
+}
+
+static pm_status make(const char *path, int width, int height, const char *fault)
 {
     pm_figure *figure = NULL;
     PM_TRY(pm_figure_open_flat(width, height, &figure));
-    pm_status status = draw(figure);
+    pm_status status = fault == NULL ? draw(figure) : draw_fault(figure, fault);
     if (status == PM_OK) {
         status = pm_figure_write(figure, path);
     }
@@ -135,10 +158,10 @@ int main(int argc, char **argv)
     int width = 1200;
     int height = 900;
     if (argc < 2 || (argc > 2 && sscanf(argv[2], "%dx%d", &width, &height) != 2)) {
-        fprintf(stderr, "charts OUT.png [WxH]\n");
+        fprintf(stderr, "sample OUT.png [WxH [FAULT]]\n");
         return 2;
     }
-    if (make(argv[1], width, height) != PM_OK) {
+    if (make(argv[1], width, height, argc > 3 ? argv[3] : NULL) != PM_OK) {
         fprintf(stderr, "%s\n", pm_status_message());
         return 2;
     }

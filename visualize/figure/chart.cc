@@ -193,10 +193,7 @@ pm_status pm_chart_close(pm_chart *chart)
     return pm_figure_guard("a chart", [&] {
         fit_axes(chart);
         chart->closed = true;
-        pm_rect plot = pm_chart_draw(chart);
-        chart->figure->charts.push_back({chart->heading, plot, chart->x.low, chart->x.high,
-                                         chart->y.low, chart->y.high, chart->x.log,
-                                         chart->y.log});
+        chart->figure->charts.push_back(pm_chart_draw(chart));
         return PM_OK;
     });
 }

@@ -83,7 +83,7 @@ void pm_chart_draw_data(const pm_chart_sheet &sheet);
 void pm_chart_draw_words(const pm_chart_sheet &sheet);
 
 /// Puts a closed chart on its figure's page.
-/// @return the rectangle between its axes
-pm_rect pm_chart_draw(const pm_chart *chart);
+/// @return where it stands
+pm_drawn_chart pm_chart_draw(const pm_chart *chart);
 
 #endif

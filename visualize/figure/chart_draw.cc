@@ -139,9 +139,38 @@ void write_titles(const pm_chart_sheet &s)
     upward->SetJustificationToCentered();
 }
 
+std::vector<std::string> labels_of(const std::vector<pm_chart_tick> &ticks)
+{
+    std::vector<std::string> labels;
+    for (const pm_chart_tick &tick : ticks) {
+        if (!tick.text.empty()) {
+            labels.push_back(tick.text);
+        }
+    }
+    return labels;
+}
+
+pm_drawn_chart record(const pm_chart_sheet &s)
+{
+    const pm_chart &c = *s.chart;
+    pm_rect plot = {static_cast<int>(s.left),
+                    static_cast<int>(s.figure->height - s.bottom - s.height),
+                    static_cast<int>(s.width), static_cast<int>(s.height)};
+    return {c.heading,
+            plot,
+            c.x.low,
+            c.x.high,
+            c.y.low,
+            c.y.high,
+            c.x.log,
+            c.y.log,
+            labels_of(s.x_ticks),
+            labels_of(s.y_ticks)};
+}
+
 } // namespace
 
-pm_rect pm_chart_draw(const pm_chart *chart)
+pm_drawn_chart pm_chart_draw(const pm_chart *chart)
 {
     pm_chart_sheet s = {chart, chart->figure, 0.0, 0.0, 0.0, 0.0, {}, {}};
     const pm_rect &where = chart->where;
@@ -158,6 +187,5 @@ pm_rect pm_chart_draw(const pm_chart *chart)
     write_titles(s);
     pm_chart_draw_legend(s, legend);
     pm_chart_draw_words(s);
-    return {static_cast<int>(s.left), static_cast<int>(s.figure->height - s.bottom - s.height),
-            static_cast<int>(s.width), static_cast<int>(s.height)};
+    return record(s);
 }

@@ -158,7 +158,14 @@ void pm_figure_overlay(pm_figure *figure, vtkPolyData *data, double line_width)
 
 void pm_figure_keep(pm_figure *figure, const char *name, vtkPolyData *data)
 {
-    figure->datasets.push_back({name, data});
+    figure->datasets.push_back({name, data, figure->renderer});
+}
+
+void pm_figure_scenery(pm_figure *figure, const pm_scene *scene, vtkProp *prop)
+{
+    figure->renderer->AddViewProp(prop);
+    figure->scenery.push_back(prop);
+    figure->scene = scene;
 }
 
 pm_status pm_figure_open(const pm_viewpoint *viewpoint, pm_figure **figure)

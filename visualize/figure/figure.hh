@@ -6,9 +6,11 @@
 #include "figure.h"
 
 #include <vtkPolyData.h>
+#include <vtkProp.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
+#include <vtkTextActor.h>
 
 #include <exception>
 #include <memory>
@@ -38,6 +40,7 @@ struct pm_drawn_chart {
     pm_rect where;
     double x_low, x_high, y_low, y_high;
     bool x_log, y_log;
+    std::vector<std::string> x_labels, y_labels; // in order along the axes
 };
 
 /// Numbers behind what was drawn, in centred world space: written by pm_figure_export(), told
@@ -45,6 +48,14 @@ struct pm_drawn_chart {
 struct pm_dataset {
     std::string name; // "photon", "split plane": what one of its cells is
     vtkSmartPointer<vtkPolyData> data;
+    vtkSmartPointer<vtkRenderer> renderer; // of the panel that shows it
+};
+
+/// A word at a point of a panel's scene.
+struct pm_drawn_mark {
+    vtkSmartPointer<vtkTextActor> words;
+    pm_vec3 at;
+    vtkSmartPointer<vtkRenderer> renderer;
 };
 
 struct pm_chart;
@@ -61,6 +72,9 @@ struct pm_figure {
     std::vector<pm_drawn_chart> charts;
     std::vector<std::shared_ptr<pm_chart>> open_charts; // and closed ones
     std::vector<pm_dataset> datasets;
+    std::vector<pm_drawn_mark> marks;
+    std::vector<vtkSmartPointer<vtkProp>> scenery; // the scene, drawn faintly
+    const pm_scene *scene; // of the scenery, or NULL; it outlives the figure
 
     /// A length in pixels that is `at900` in a picture 900 pixels high.
     double pixels(double at900) const
@@ -81,6 +95,9 @@ void pm_figure_overlay(pm_figure *figure, vtkPolyData *data, double line_width);
 /// Keeps the numbers behind what is drawn. Arrays belong to points or cells and have names with
 /// their units where they have one ("power [W]").
 void pm_figure_keep(pm_figure *figure, const char *name, vtkPolyData *data);
+
+/// Puts the scene's own surfaces and edges in the current panel.
+void pm_figure_scenery(pm_figure *figure, const pm_scene *scene, vtkProp *prop);
 
 /// VTK's messages go to a listener of ours: forgets what it heard, or returns the first line of
 /// the first error since, "" when there was none.

@@ -28,13 +28,24 @@ json_t *scale_json(const pm_drawn_scale &scale)
                      scale.where.y, "width", scale.where.width, "height", scale.where.height);
 }
 
+json_t *labels_json(const std::vector<std::string> &labels)
+{
+    json_t *all = json_array();
+    for (const std::string &label : labels) {
+        json_array_append_new(all, json_string(label.c_str()));
+    }
+    return all;
+}
+
 json_t *chart_json(const pm_drawn_chart &chart)
 {
-    return json_pack("{s:s,s:i,s:i,s:i,s:i,s:[f,f],s:[f,f],s:b,s:b}", "heading",
+    return json_pack("{s:s,s:i,s:i,s:i,s:i,s:[f,f],s:[f,f],s:b,s:b,s:o,s:o}", "heading",
                      chart.heading.c_str(), "x", chart.where.x, "y", chart.where.y, "width",
                      chart.where.width, "height", chart.where.height, "x_ends", chart.x_low,
                      chart.x_high, "y_ends", chart.y_low, chart.y_high, "x_log",
-                     static_cast<int>(chart.x_log), "y_log", static_cast<int>(chart.y_log));
+                     static_cast<int>(chart.x_log), "y_log", static_cast<int>(chart.y_log),
+                     "x_labels", labels_json(chart.x_labels), "y_labels",
+                     labels_json(chart.y_labels));
 }
 
 } // namespace

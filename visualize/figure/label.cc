@@ -136,6 +136,12 @@ pm_rect on_page(const pm_figure *figure, double x, double top, double width, dou
 vtkTextProperty *pm_words_put(pm_figure *figure, const std::string &text, double x, double y,
                               double size)
 {
+    return pm_words_actor(figure, text, x, y, size)->GetTextProperty();
+}
+
+vtkTextActor *pm_words_actor(pm_figure *figure, const std::string &text, double x, double y,
+                             double size)
+{
     vtkNew<vtkTextActor> actor;
     actor->SetInput(text.c_str());
     actor->SetPosition(x, y);
@@ -146,7 +152,7 @@ vtkTextProperty *pm_words_put(pm_figure *figure, const std::string &text, double
     style->SetVerticalJustificationToTop();
     style->SetLineSpacing(1.25);
     figure->page->AddActor2D(actor);
-    return style;
+    return actor; // the page holds it
 }
 
 double pm_words_width(const std::string &text, double size)
@@ -228,8 +234,11 @@ pm_status pm_figure_mark(pm_figure *figure, pm_vec3 at, const char *text)
         const pm_rect &panel = figure->panels.back().where;
         bool before = pm_viewpoint_project(&figure->viewpoint, at, &x, &y);
         if (before && x >= 0.0 && y >= 0.0 && x <= panel.width && y <= panel.height) {
-            vtkTextProperty *style =
-                write(figure, text, panel.x + x, figure->height - panel.y - y, mark_size);
+            vtkTextActor *words =
+                pm_words_actor(figure, text, panel.x + x, figure->height - panel.y - y,
+                               figure->pixels(mark_size));
+            figure->marks.push_back({words, at, figure->renderer});
+            vtkTextProperty *style = words->GetTextProperty();
             style->SetColor(0.85, 0.87, 0.92);
             style->SetBackgroundColor(0.06, 0.07, 0.1);
             style->SetBackgroundOpacity(0.8);

@@ -160,9 +160,19 @@ bool on_x_display = false; // chosen once, before the first window
 
 } // namespace
 
-void pm_window_choose(bool x_display)
+pm_status pm_window_choose(bool x_display, bool interactive)
 {
-    on_x_display = x_display;
+    on_x_display = x_display || interactive;
+    if (!on_x_display || x_answers()) {
+        return PM_OK;
+    }
+    const char *name = getenv("DISPLAY");
+    return pm_status_fail(PM_EINPUT, "view: %s needs an X display, and %s%s%s; %s",
+                          interactive ? "--interactive" : "--display x",
+                          name == nullptr ? "DISPLAY is not set" : "no display answers at \"",
+                          name == nullptr ? "" : name, name == nullptr ? "" : "\"",
+                          interactive ? "-o FILE draws without one"
+                                      : "without --display pictures need none");
 }
 
 pm_status pm_window_open(int width, int height, vtkSmartPointer<vtkRenderWindow> *window)

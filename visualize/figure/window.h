@@ -2,15 +2,19 @@
 #ifndef PM_WINDOW_H
 #define PM_WINDOW_H
 
+#include "status.h"
+
 #include <stdbool.h>
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-/// Before the first figure is opened: draw on the X display (true), or without one where the
-/// system can (false, the default).
-void pm_window_choose(bool x_display);
+/// Before the first figure is opened: draw on the X display, or (neither, the default) without
+/// one where the system can.
+/// @param interactive  a window is wanted, not only pictures
+/// @return PM_EINPUT with a line when a display is wanted and none answers
+pm_status pm_window_choose(bool x_display, bool interactive);
 
 #ifdef __cplusplus
 }

@@ -4,6 +4,7 @@
 
 #include "figure.hh"
 
+#include <vtkTextActor.h>
 #include <vtkTextProperty.h>
 
 #include <string>
@@ -16,6 +17,10 @@ const double pm_words_line = 31.0; // from a line to the next
 /// @return its looks, to be changed
 vtkTextProperty *pm_words_put(pm_figure *figure, const std::string &text, double x, double y,
                               double size);
+
+/// The same, whole.
+vtkTextActor *pm_words_actor(pm_figure *figure, const std::string &text, double x, double y,
+                             double size);
 
 /// How wide these letters of `size` pixels are, in pixels.
 double pm_words_width(const std::string &text, double size);

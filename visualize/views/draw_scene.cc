@@ -241,7 +241,7 @@ pm_status pm_draw_scene(pm_figure *figure, const pm_scene *scene)
                 PM_TRY(pm_figure_mark(figure, scene->lights[i].position, "light"));
             }
         }
-        figure->renderer->AddActor(drawing.actor(figure->pixels(1.2), 1.0, 4.0));
+        pm_figure_scenery(figure, scene, drawing.actor(figure->pixels(1.2), 1.0, 4.0));
         return PM_OK;
     });
 }
