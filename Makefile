@@ -66,7 +66,7 @@ GSL_LIBS := -lgsl -lgslcblas
 WEBP_LIBS := -lwebp -lwebpmux
 # VTK has no pkg-config file in Debian 12.
 VTK_MODULES := IOXML IOImage RenderingAnnotation RenderingOpenGL2 RenderingFreeType \
-  InteractionStyle RenderingUI RenderingCore FiltersSources CommonColor CommonExecutionModel \
+  InteractionStyle RenderingUI RenderingCore FiltersSources FiltersCore CommonColor CommonExecutionModel \
   CommonTransforms CommonDataModel CommonMath CommonCore ChartsCore ViewsContext2D ViewsCore \
   RenderingContextOpenGL2 RenderingContext2D sys
 VTK_LIBS := -Wl,--as-needed $(VTK_MODULES:%=-lvtk%-$(VTK_SUFFIX)) -lGLEW -lEGL -ldl

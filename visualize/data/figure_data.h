@@ -13,12 +13,16 @@
 /// Photons of one map. Freed by pm_photon_cloud_free().
 typedef struct {
     float (*position)[3];
-    float (*power)[3]; // [W]
-    uint32_t count;    // that are here
-    uint32_t stored;   // that the map has
-    uint64_t emitted;  // photons sent to fill the map
-    double full_power; // [W] in one channel; only one photon in a hundred has more
-    const char *name;  // "global", "caustic" or "volume"
+    float (*power)[3];     // [W]
+    float (*direction)[3]; // the way each travelled
+    uint32_t *bounce;      // events before it landed; NULL where the file does not say
+    uint32_t *light;       // index in the scene; NULL where the file does not say
+    uint32_t count;        // that are here
+    uint32_t stored;       // that the map has
+    uint64_t emitted;      // photons sent to fill the map; 0 where the file does not say
+    double full_power;     // [W] in one channel; only one photon in a hundred has more
+    int map;               // a pm_map_kind
+    const char *name;      // "global", "caustic" or "volume"
 } pm_photon_cloud;
 
 /// One split plane of a kd-tree, clipped to its cell.
