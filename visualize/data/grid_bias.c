@@ -142,3 +142,9 @@ double pm_grid_bias_disc(double distance)
     }
     return 1.0 - (acos(distance) - distance * sqrt(1.0 - distance * distance)) / PM_PI;
 }
+
+double pm_grid_bias_sphere(double distance)
+{
+    double across2 = fmax(1.0 - distance * distance, 0.0);
+    return pm_grid_bias_disc(distance) + 0.5 * across2;
+}

@@ -34,4 +34,8 @@ void pm_grid_bias_free(pm_grid_bias *bias);
 /// @param distance  of the disc's middle from the edge, in radii, >= 0
 double pm_grid_bias_disc(double distance);
 
+/// The same and the wall's photons that a sphere takes beyond the edge, where a wall at a right
+/// angle gets as much light: half a disc of what remains of its radius there.
+double pm_grid_bias_sphere(double distance);
+
 #endif

@@ -5,6 +5,7 @@
 #include "core.hh"
 #include "drawing.hh"
 #include "figure.hh"
+#include "grid_data.hh"
 
 #include <algorithm>
 #include <cmath>
@@ -146,6 +147,7 @@ pm_status pm_draw_irradiance(pm_figure *figure, const pm_grid *grid)
     return pm_figure_guard("irradiance", [&] {
         value_range r = measure(grid);
         add_surface(figure, grid, r);
+        pm_figure_keep(figure, "irradiance", pm_grid_data(grid));
         pm_scale scale = {"irradiance [W/m\xC2\xB2]\n(luminance)", r.low, r.high, true,
                           pm_colour_inferno};
         PM_TRY(pm_figure_scale(figure, &scale));

@@ -144,17 +144,29 @@ static pm_status draw_map(pm_view *view, const grids *all, int g, const pm_rect 
 
 // --- a chart --------------------------------------------------------------------------------
 
-/// What a thin disc keeps of its area.
+static pm_colour disc_colour(void)
+{
+    return pm_colour_named(PM_COLOUR_SKY);
+}
+
+static pm_colour sphere_colour(void)
+{
+    return pm_colour_named(PM_COLOUR_ORANGE);
+}
+
+/// What a thin disc would find, and what a sphere would beside a wall that is as bright.
 static pm_status draw_expected(pm_chart *chart)
 {
     double x[101];
-    double y[101];
+    double disc[101];
+    double sphere[101];
     for (int i = 0; i <= 100; i++) {
         x[i] = farthest * i / 100.0;
-        y[i] = pm_grid_bias_disc(x[i]);
+        disc[i] = pm_grid_bias_disc(x[i]);
+        sphere[i] = pm_grid_bias_sphere(x[i]);
     }
-    return pm_chart_curve(chart, NULL, pm_colour_named(PM_COLOUR_SKY), PM_CHART_DASHES, x, y,
-                          101);
+    PM_TRY(pm_chart_curve(chart, NULL, disc_colour(), PM_CHART_DASHES, x, disc, 101));
+    return pm_chart_curve(chart, NULL, sphere_colour(), PM_CHART_DASHES, x, sphere, 101);
 }
 
 static pm_status draw_profile(pm_view *view, const grids *all, int g, const pm_rect *where)
@@ -162,7 +174,6 @@ static pm_status draw_profile(pm_view *view, const grids *all, int g, const pm_r
     const pm_grid_bias *bias = &all->bias[g];
     pm_chart *chart = NULL;
     pm_chart_axes axes = {.x_title = "distance from the edge / r",
-                          .y_title = g == 0 ? "estimate / truth" : "",
                           .x_high = farthest,
                           .y_high = 1.0 + all->reach};
     double *shown = malloc((size_t)(2 * bias->count + 1) * sizeof *shown);
@@ -227,14 +238,16 @@ static pm_status draw_column(pm_view *view, const grids *all, int g, const pm_re
 static pm_status draw_page(pm_view *view, const grids *all)
 {
     const pm_legend_entry curves[] = {
-        {PM_SWATCH_DOT, pm_colour_named(PM_COLOUR_YELLOW), "mean of the middle rows"},
-        {PM_SWATCH_LINE, pm_colour_named(PM_COLOUR_SKY), "a thin disc's share"},
-        {PM_SWATCH_NONE, pm_colour_named(PM_COLOUR_WHITE), "of its area before the edge"}};
+        {PM_SWATCH_DOT, pm_colour_named(PM_COLOUR_YELLOW), "middle rows, both ends"},
+        {PM_SWATCH_LINE, disc_colour(), "expected: thin disc"},
+        {PM_SWATCH_LINE, sphere_colour(), "expected: sphere where"},
+        {PM_SWATCH_NONE, pm_colour_named(PM_COLOUR_WHITE),
+         "          a wall as bright meets it"}};
     pm_rect room = pm_figure_room(view->figure);
     pm_rect cells[FILES_MOST];
     pm_figure_columns(view->figure, &room, all->count, cells);
     PM_TRY(pm_draw_bias_scale(view->figure, all->reach, all->most > 1.0 + all->reach));
-    PM_TRY(pm_figure_legend(view->figure, "charts", curves, 3));
+    PM_TRY(pm_figure_legend(view->figure, "charts: estimate / truth", curves, 4));
     for (int g = 0; g < all->count; g++) {
         PM_TRY(draw_column(view, all, g, &cells[g]));
     }
@@ -251,9 +264,11 @@ static pm_status draw(pm_view *view)
     PM_TRY(read_grids(view, all));
     pm_view_note(
         view, "irradiance on one surface, estimated and divided by %s %.4g W/m\xC2\xB2",
-        view->options->truth > 0.0 ? "what it should be:" : "the middle's median", all->truth);
-    pm_view_note(view, "\nr: radius of the estimate; a disc that hangs over the edge lacks the "
-                       "photons of the part outside");
+        view->options->truth > 0.0 ? "what it should be:" : "the median of the middle:",
+        all->truth);
+    pm_view_note(view,
+                 "\nnear an edge a disc lies partly outside and finds too little; a sphere "
+                 "takes the wall's photons, too");
     pm_view_fact(view, "truth", json_real(all->truth));
     pm_view_fact(view, "grids", facts_of(all));
     return draw_page(view, all);

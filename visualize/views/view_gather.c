@@ -17,8 +17,8 @@ static const double height = 0.47;   // sine of the angle from which a surface i
 static const double beside = 1.1;    // how far the eye turns to face a wall nearby
 static const double tallest = 1.25;  // height over width of a panel
 static const double lines = 5.0;     // of text under a panel
-static const double line_900 = 27.0; // pixels from one to the next
-static const double size_900 = 18.0;
+static const double line_900 = 29.0; // pixels from one to the next
+static const double size_900 = 20.0;
 
 /// The regions of one picture.
 typedef struct {
