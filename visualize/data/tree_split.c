@@ -21,16 +21,16 @@ static cell bounds(const pm_photon_map *map)
     return all;
 }
 
-/// The rectangle where the plane `position[axis] = at` cuts the cell.
-static void cut(const cell *c, int axis, float at, pm_vec3 corner[4])
+void pm_tree_split_cut(const float low[3], const float high[3], int axis, float at,
+                       pm_vec3 corner[4])
 {
     int s = (axis + 1) % 3;
     int t = (axis + 2) % 3;
     for (int i = 0; i < 4; i++) {
         float p[3];
         p[axis] = at;
-        p[s] = i == 1 || i == 2 ? c->high[s] : c->low[s];
-        p[t] = i >= 2 ? c->high[t] : c->low[t];
+        p[s] = i == 1 || i == 2 ? high[s] : low[s];
+        p[t] = i >= 2 ? high[t] : low[t];
         corner[i] = pm_vec((double)p[0], (double)p[1], (double)p[2]);
     }
 }
@@ -54,7 +54,7 @@ static pm_status split_cell(const pm_photon_map *map, const char *where, uint32_
                               where, node - 1);
     }
     split->axis = axis;
-    cut(c, axis, photon->position[axis], split->corner);
+    pm_tree_split_cut(c->low, c->high, axis, photon->position[axis], split->corner);
     cell *left = &cells[(size_t)node * 2];
     left[0] = *c;
     left[1] = *c;

@@ -1,54 +1,44 @@
 // view tree: the split planes of a balanced map.
-#include "draw_photons.h"
 #include "draw_tree.h"
-#include "photon_cloud.h"
 #include "photon_file.h"
 #include "photon_map.h"
 #include "tree_split.h"
 #include "view.h"
+#include "view_backdrop.h"
 #include "view_kinds.h"
-
-#include <stdlib.h>
-
-// Photons behind a tree: so bright, and so many at most.
-#define BACKDROP 0.6
-#define BACKDROP_MOST 20000
-
-static void release_cloud(void *data)
-{
-    pm_photon_cloud_free(data);
-    free(data);
-}
 
 static pm_status draw_backdrop(pm_view *view, const pm_photon_map *map)
 {
     char shown[PM_VIEW_GROUPED_MAX];
-    pm_photon_cloud *cloud = calloc(1, sizeof *cloud);
-    if (cloud == NULL) {
-        return PM_FAIL(PM_ENOMEM, "%s", "no memory for photons");
-    }
-    PM_TRY(pm_view_keep(view, cloud, release_cloud));
-    PM_TRY(pm_photon_cloud_make(map, BACKDROP_MOST, cloud));
-    pm_view_note(view, ", %s photons as dots", pm_view_grouped(cloud->count, shown));
-    return pm_draw_photons(view->figure, cloud, 1.0, BACKDROP);
+    const pm_photon_cloud *cloud = NULL;
+    PM_TRY(pm_view_backdrop_make(view, map, &cloud));
+    pm_view_note(view, "; dots: %s photons", pm_view_grouped(cloud->count, shown));
+    return pm_view_backdrop_draw(view, cloud);
+}
+
+static pm_status draw_planes(pm_view *view, const pm_tree_split_set *tree)
+{
+    PM_TRY(pm_draw_tree(view->figure, tree, tree->depths, "split plane", view->scene.center,
+                        &view->drawn));
+    return pm_draw_tree_legend(view->figure, tree->depths);
 }
 
 static pm_status draw_splits(pm_view *view, const pm_photon_map *map)
 {
     pm_tree_split_set tree;
     char count[PM_VIEW_GROUPED_MAX];
-    char shown[PM_VIEW_GROUPED_MAX];
+    char planes[PM_VIEW_GROUPED_MAX];
     PM_TRY(pm_tree_split_make(map, view->files[0], (int)view->options->depth, &tree));
-    view->drawn = tree.count;
+    int last = tree.depths > 0 ? tree.depths - 1 : 0;
     pm_view_note(
         view,
-        "every plane goes through the median photon of its cell and cuts its longest side\n"
-        "%s photons, tree %d deep; the first %d depths: %s planes",
-        pm_view_grouped(map->count, count), tree.height, tree.depths,
-        pm_view_grouped(tree.count, shown));
+        "every plane goes through the median photon of its cell, across its longest side\n"
+        "%s photons, tree of height %d; planes down to depth %d: %s",
+        pm_view_grouped(map->count, count), tree.height > 0 ? tree.height - 1 : 0, last,
+        pm_view_grouped(tree.count, planes));
     pm_status status = draw_backdrop(view, map);
     if (status == PM_OK) {
-        status = pm_draw_tree(view->figure, &tree);
+        status = draw_planes(view, &tree);
     }
     pm_tree_split_free(&tree);
     return status;
