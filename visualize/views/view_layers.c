@@ -134,29 +134,33 @@ static pm_status measure(const char *path, sum *s)
     return PM_OK;
 }
 
-static int rows_of(int count, int columns)
-{
-    return (count + columns - 1) / columns;
-}
-
-/// The largest pictures that fit; of equal ones those in the fewest rows.
-static strip lay_out(const pm_figure *figure, const pm_image *image, int count)
+/// `count` pictures in `rows` rows, as large as fits.
+static strip lay_rows(const pm_figure *figure, const pm_image *image, int count, int rows)
 {
     pm_rect room = pm_figure_wide_room(figure);
     int sign = (int)pm_figure_pixels_of(figure, sign_room);
     int below = (int)pm_figure_pixels_of(figure, words_below);
     int gap = (int)pm_figure_pixels_of(figure, row_gap);
+    int indent = rows > 1 ? sign : 0;
+    strip s = {.columns = (count + rows - 1) / rows};
+    int pitch = (room.width - indent + sign) / s.columns;
+    s.zoom = pm_plate_fit(image->width, image->height, pitch - sign,
+                          (room.height + gap) / rows - below - gap);
+    s.width = pm_plate_length(image->width, s.zoom);
+    s.height = pm_plate_length(image->height, s.zoom);
+    s.pitch = pitch < s.width + 4 * sign ? pitch : s.width + 4 * sign;
+    s.drop = s.height + below + gap;
+    s.x = room.x + indent;
+    s.y = room.y + (room.height + gap - rows * s.drop) / 2;
+    return s;
+}
+
+/// The largest pictures that fit; of equal ones those in the fewest rows.
+static strip lay_out(const pm_figure *figure, const pm_image *image, int count)
+{
     strip best = {0};
-    for (int columns = count; columns >= 1; columns--) {
-        int rows = rows_of(count, columns);
-        strip s = {.columns = columns, .pitch = (room.width + sign) / columns};
-        s.zoom = pm_plate_fit(image->width, image->height, s.pitch - sign,
-                              (room.height + gap) / rows - below - gap);
-        s.width = pm_plate_length(image->width, s.zoom);
-        s.height = pm_plate_length(image->height, s.zoom);
-        s.drop = s.height + below + gap;
-        s.x = room.x;
-        s.y = room.y + (room.height + gap - rows * s.drop) / 2;
+    for (int rows = 1; rows <= count; rows++) {
+        strip s = lay_rows(figure, image, count, rows);
         best = s.width > best.width ? s : best;
     }
     return best;
