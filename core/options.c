@@ -45,7 +45,7 @@ pm_options pm_options_defaults(void)
         .passes = 16,
         .only = -1,
         .by = -1,
-        .frames = 24,
+        .frames = 60,
         .runs = 1,
         .depth = 5,
         .paths = 150,
