@@ -139,12 +139,14 @@ static double highest(const pm_direction_light *s)
     return most;
 }
 
-static pm_status draw_chart(pm_view *view, const pm_direction_light *s, const pm_rect *where)
+static pm_status draw_chart(pm_view *view, const pm_direction_light *s, bool beside,
+                            const pm_rect *where)
 {
     double end = s->tally.strays > 0 ? PM_PI : s->law.reach;
     pm_chart_axes axes = {
-        .x_title = s->law.light->type == PM_LIGHT_AREA ? "angle to normal [degrees]"
-                                                       : "angle to axis [degrees]",
+        .x_title = beside                                ? "angle [degrees]"
+                   : s->law.light->type == PM_LIGHT_AREA ? "angle to the normal [degrees]"
+                                                         : "angle to the axis [degrees]",
         .y_title = "density [1/sr]",
         .x_high = end * DEGREES,
         .y_high = 1.12 * highest(s),
@@ -178,8 +180,7 @@ pm_status pm_draw_direction_light(pm_view *view, const pm_direction_light *s, in
     char heading[128];
     int gap = (int)pm_figure_pixels_of(view->figure, 14.0);
     int part = beside ? cell->width * 45 / 100 : cell->height * 55 / 100;
-    pm_rect sphere = {cell->x, cell->y, beside ? part : cell->width,
-                      beside ? cell->height - gap : part};
+    pm_rect sphere = {cell->x, cell->y, beside ? part : cell->width, part};
     pm_rect chart = {cell->x + (beside ? part : 0), cell->y + (beside ? 0 : part + gap),
                      cell->width - (beside ? part : 0),
                      cell->height - gap - (beside ? 0 : part)};
@@ -187,5 +188,5 @@ pm_status pm_draw_direction_light(pm_view *view, const pm_direction_light *s, in
              is_enlarged(s) ? " (enlarged)" : "");
     PM_TRY(pm_figure_caption(view->figure, &sphere, heading));
     PM_TRY(draw_sphere(view, s, place, &sphere));
-    return s->law.single ? write_single(view, s, &chart) : draw_chart(view, s, &chart);
+    return s->law.single ? write_single(view, s, &chart) : draw_chart(view, s, beside, &chart);
 }
