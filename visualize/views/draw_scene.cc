@@ -220,28 +220,35 @@ pm_vec3 draw_shape(pm_drawing *drawing, const pm_shape *shape, const look &l, pm
     return draw_mesh(drawing, shape, l);
 }
 
+pm_status draw_all(pm_figure *figure, const pm_scene *scene, bool with_words)
+{
+    pm_drawing drawing;
+    for (int i = 0; i < scene->shape_count; i++) {
+        look l = look_of(scene, &scene->shapes[i]);
+        pm_vec3 middle = draw_shape(&drawing, &scene->shapes[i], l, figure->viewpoint.position);
+        if (with_words && l.word != nullptr) {
+            pm_vec3 place = place_word(&scene->shapes[i], l, middle);
+            PM_TRY(pm_figure_mark(figure, place, l.word));
+        }
+    }
+    for (int i = 0; i < scene->light_count; i++) {
+        pm_light_type type = scene->lights[i].type;
+        if (with_words && (type == PM_LIGHT_POINT || type == PM_LIGHT_SPOT)) {
+            PM_TRY(pm_figure_mark(figure, scene->lights[i].position, "light"));
+        }
+    }
+    pm_figure_scenery(figure, scene, drawing.actor(figure->pixels(1.2), 1.0, 4.0));
+    return PM_OK;
+}
+
 } // namespace
 
 pm_status pm_draw_scene(pm_figure *figure, const pm_scene *scene)
 {
-    return pm_figure_guard("the scene", [&] {
-        pm_drawing drawing;
-        for (int i = 0; i < scene->shape_count; i++) {
-            look l = look_of(scene, &scene->shapes[i]);
-            pm_vec3 middle =
-                draw_shape(&drawing, &scene->shapes[i], l, figure->viewpoint.position);
-            if (l.word != nullptr) {
-                pm_vec3 place = place_word(&scene->shapes[i], l, middle);
-                PM_TRY(pm_figure_mark(figure, place, l.word));
-            }
-        }
-        for (int i = 0; i < scene->light_count; i++) {
-            pm_light_type type = scene->lights[i].type;
-            if (type == PM_LIGHT_POINT || type == PM_LIGHT_SPOT) {
-                PM_TRY(pm_figure_mark(figure, scene->lights[i].position, "light"));
-            }
-        }
-        pm_figure_scenery(figure, scene, drawing.actor(figure->pixels(1.2), 1.0, 4.0));
-        return PM_OK;
-    });
+    return pm_figure_guard("the scene", [&] { return draw_all(figure, scene, true); });
+}
+
+pm_status pm_draw_scene_wordless(pm_figure *figure, const pm_scene *scene)
+{
+    return pm_figure_guard("the scene", [&] { return draw_all(figure, scene, false); });
 }

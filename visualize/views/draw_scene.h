@@ -13,6 +13,9 @@ extern "C" {
 /// lights, mirrors and glass.
 pm_status pm_draw_scene(pm_figure *figure, const pm_scene *scene);
 
+/// The same without words: for small panels, and where other words stand.
+pm_status pm_draw_scene_wordless(pm_figure *figure, const pm_scene *scene);
+
 #ifdef __cplusplus
 }
 #endif

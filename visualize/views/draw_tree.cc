@@ -45,7 +45,10 @@ uint64_t draw_depth(pm_figure *figure, const pm_tree_split_set *tree, int depth)
             drawn++;
         }
     }
-    figure->renderer->AddActor(drawing.actor(figure->pixels(outline_width(depth)), 1.0));
+    // Thinner in a small panel, but not as much as it is smaller.
+    double shrink = std::sqrt(static_cast<double>(figure->viewpoint.height) / figure->height);
+    double width = std::max(shrink * outline_width(depth), 1.0);
+    figure->renderer->AddActor(drawing.actor(figure->pixels(width), 1.0));
     return drawn;
 }
 
@@ -161,9 +164,9 @@ pm_status pm_draw_tree_legend(pm_figure *figure, int depths)
     PM_TRY(pm_figure_legend(figure, "split plane", axes, 3));
     const pm_colour white = pm_colour_named(PM_COLOUR_WHITE);
     const pm_legend_entry numbers[] = {
-        {PM_SWATCH_NONE, white, "0  boldest: cuts all photons"},
-        {PM_SWATCH_NONE, white, "1  then each half again"},
-        {PM_SWATCH_NONE, white, "2  then each quarter"},
+        {PM_SWATCH_NONE, white, "0  boldest: the first cut"},
+        {PM_SWATCH_NONE, white, "1  then each side of it"},
+        {PM_SWATCH_NONE, white, "2  then each part again"},
         {PM_SWATCH_NONE, white, "thinner still: deeper"},
     };
     int count = depths > numbered ? numbered + 1 : depths;

@@ -76,6 +76,10 @@ pm_status pm_view_open_scene(pm_view *view);
 /// A panel on the page with the scene drawn faintly in it, under a heading.
 pm_status pm_view_scene_panel(pm_view *view, const pm_rect *where, const char *heading);
 
+/// The same seen from `viewpoint` (NULL: as above), and without words on lights and glass.
+pm_status pm_view_wordless_panel(pm_view *view, const pm_rect *where,
+                                 const pm_viewpoint *viewpoint, const char *heading);
+
 /// Whether a file's name has this ending and something before it.
 bool pm_view_ends_with(const char *path, const char *ending);
 

@@ -99,6 +99,15 @@ pm_status pm_view_scene_panel(pm_view *view, const pm_rect *where, const char *h
     return pm_draw_scene(view->figure, &view->scene);
 }
 
+pm_status pm_view_wordless_panel(pm_view *view, const pm_rect *where,
+                                 const pm_viewpoint *viewpoint, const char *heading)
+{
+    pm_viewpoint all = pm_viewpoint_fill(&view->scene, where->width, where->height);
+    PM_TRY(pm_figure_panel(view->figure, where, viewpoint != NULL ? viewpoint : &all));
+    PM_TRY(pm_figure_caption(view->figure, where, heading));
+    return pm_draw_scene_wordless(view->figure, &view->scene);
+}
+
 bool pm_view_ends_with(const char *path, const char *ending)
 {
     size_t length = strlen(path);

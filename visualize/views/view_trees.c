@@ -10,9 +10,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#define PANELS_SHARE 0.6 // of the height
+#define PANELS_SHARE 0.56 // of the height
 
-static const char *const headings[PM_TREE_KINDS] = {"balanced", "not balanced: as they came"};
+static const char *const names[PM_TREE_KINDS] = {"balanced", "not balanced"};
 static const char *const kept_names[PM_TREE_KINDS] = {"split plane, balanced",
                                                       "split plane, not balanced"};
 static const pm_colour_name curve_colours[PM_TREE_KINDS] = {PM_COLOUR_SKY, PM_COLOUR_ORANGE};
@@ -34,25 +34,23 @@ static void lay_out(const pm_figure *figure, page *p)
     p->chart = (pm_rect){room.x, top, room.width, room.y + room.height - top};
 }
 
-/// One tree in its panel, with its numbers below.
+/// One tree in its panel, under its numbers.
 static pm_status draw_one(pm_view *view, const page *p, int kind)
 {
-    char line[128];
+    char heading[128];
     uint64_t drawn = 0;
     const pm_rect *where = &p->panel[kind];
     const pm_tree_table *tree = &p->trees[kind];
-    PM_TRY(pm_view_scene_panel(view, where, headings[kind]));
+    snprintf(heading, sizeof heading, "%s: height %llu, %.1f looked at", names[kind],
+             (unsigned long long)tree->height, tree->visited_mean);
+    PM_TRY(pm_view_wordless_panel(view, where, NULL, heading));
     if (p->cloud != NULL) {
         PM_TRY(pm_view_backdrop_draw(view, p->cloud));
     }
     PM_TRY(pm_draw_tree(view->figure, &tree->splits, (int)view->options->depth,
                         kept_names[kind], view->scene.center, &drawn));
     view->drawn += drawn;
-    snprintf(line, sizeof line, "height %llu; %.1f photons looked at",
-             (unsigned long long)tree->height, tree->visited_mean);
-    return pm_figure_text(view->figure, line, where->x,
-                          where->y + where->height + pm_figure_pixels_of(view->figure, 9.0),
-                          pm_figure_pixels_of(view->figure, 19.0), PM_TEXT_PLAIN);
+    return PM_OK;
 }
 
 static pm_status draw_levels(pm_chart *chart, const pm_tree_table *tree, int kind)
@@ -80,10 +78,8 @@ static pm_status draw_levels(pm_chart *chart, const pm_tree_table *tree, int kin
 
 static pm_status draw_chart(pm_view *view, const page *p)
 {
-    const pm_chart_axes axes = {.heading = "how many photons stand at each depth",
-                                .x_title = "depth (0: the root)",
-                                .y_title = "photons",
-                                .y_log = true};
+    const pm_chart_axes axes = {
+        .x_title = "depth (0: the root)", .y_title = "photons there", .y_log = true};
     pm_chart *chart = NULL;
     PM_TRY(pm_chart_open(view->figure, &p->chart, &axes, &chart));
     for (int kind = 0; kind < PM_TREE_KINDS; kind++) {
@@ -107,7 +103,8 @@ static pm_status draw_page(pm_view *view, page *p)
         view,
         "%s photons, twice: divided at medians, and inserted one by one in the order "
         "they were stored\n"
-        "below each: links down to the deepest photon, photons a search looks at (mean)",
+        "height: links from the root to the deepest photon; looked at: photons, in a mean "
+        "search",
         pm_view_grouped(trees[0].photons, photons));
     pm_view_fact(view, "balanced", facts_of(&trees[PM_TREE_BALANCED]));
     pm_view_fact(view, "unbalanced", facts_of(&trees[PM_TREE_UNBALANCED]));
