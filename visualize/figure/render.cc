@@ -55,9 +55,10 @@ Listener *listen()
 void read_pixels(pm_figure *figure, uint8_t *pixels)
 {
     vtkNew<vtkUnsignedCharArray> upward;
-    figure->window->GetPixelData(0, 0, figure->width - 1, figure->height - 1, 0, upward);
-    size_t row = 3 * static_cast<size_t>(figure->width);
-    size_t rows = static_cast<size_t>(figure->height);
+    const int *size = figure->window->GetSize();
+    figure->window->GetPixelData(0, 0, size[0] - 1, size[1] - 1, 0, upward);
+    size_t row = 3 * static_cast<size_t>(size[0]);
+    size_t rows = static_cast<size_t>(size[1]);
     if (static_cast<size_t>(upward->GetNumberOfValues()) != row * rows) {
         throw std::runtime_error("VTK hands back no pixels");
     }
@@ -94,11 +95,11 @@ std::string pm_figure_fault()
 
 pm_status pm_figure_pixels(pm_figure *figure, uint8_t **pixels)
 {
-    size_t size = 3 * static_cast<size_t>(figure->width) * static_cast<size_t>(figure->height);
-    uint8_t *room = static_cast<uint8_t *>(std::malloc(size));
+    const int *size = figure->window->GetSize(); // the figure's, unless someone resized it
+    size_t bytes = 3 * static_cast<size_t>(size[0]) * static_cast<size_t>(size[1]);
+    uint8_t *room = static_cast<uint8_t *>(std::malloc(bytes));
     if (room == nullptr) {
-        return PM_FAIL(PM_ENOMEM, "no memory for %d x %d pixels", figure->width,
-                       figure->height);
+        return PM_FAIL(PM_ENOMEM, "no memory for %d x %d pixels", size[0], size[1]);
     }
     pm_status status = pm_figure_guard("a picture", [&] { return render(figure, room); });
     if (status != PM_OK) {
