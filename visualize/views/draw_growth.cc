@@ -19,7 +19,7 @@ extern "C" {
 
 namespace {
 
-const double light_speed = 0.299792458; // [m/ns]
+const double light_speed = 0.299792458; // [m/ns], without glass or water on the way
 
 /// One path of the set.
 struct course {
@@ -86,8 +86,8 @@ std::string fixed(double value, const char *unit)
 pm_status write_clock(pm_figure *figure, double metres, uint64_t moving)
 {
     const std::string texts[] = {
-        "each has flown " + fixed(metres, "m"),
-        "in vacuum: " + fixed(metres / light_speed, "ns"),
+        "flown: " + fixed(metres, "m"),
+        "which takes light " + fixed(metres / light_speed, "ns"),
         "on their way: " + std::to_string(moving),
     };
     pm_colour white = pm_colour_named(PM_COLOUR_WHITE);
@@ -96,7 +96,7 @@ pm_status write_clock(pm_figure *figure, double metres, uint64_t moving)
         {PM_SWATCH_NONE, white, texts[1].c_str()},
         {PM_SWATCH_DOT, white, texts[2].c_str()},
     };
-    return pm_figure_legend(figure, "the photons", entries, 3);
+    return pm_figure_legend(figure, "by now", entries, 3);
 }
 
 } // namespace

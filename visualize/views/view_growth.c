@@ -14,7 +14,6 @@
 
 #define WIDTH 800
 #define HEIGHT 600
-#define FRAMES 60
 
 /// What a film is made of; all of it is freed together.
 typedef struct {
@@ -30,8 +29,9 @@ static pm_status write_title(pm_view *view, uint64_t all)
     char of[PM_VIEW_GROUPED_MAX];
     const pm_options *options = view->options;
     view->drawn = options->paths < all ? options->paths : all;
-    pm_view_note(view, "all photons fly equally fast, from the light on\n%s of %s paths drawn",
-                 pm_view_grouped(view->drawn, drawn), pm_view_grouped(all, of));
+    pm_view_note(
+        view, "all photons leave the light at once and fly equally fast\n%s of %s paths drawn",
+        pm_view_grouped(view->drawn, drawn), pm_view_grouped(all, of));
     return pm_figure_title(
         view->figure, options->title != NULL ? options->title : view->kind->title, view->note);
 }
@@ -79,7 +79,7 @@ static pm_status make_film(pm_view *view, making *m)
     const pm_options *options = view->options;
     pm_viewpoint viewpoint = choose_viewpoint(view);
     bool by_bounce = false;
-    m->frames = options->frames > 0 ? options->frames : FRAMES;
+    m->frames = options->frames;
     PM_TRY(pm_path_by(view, &by_bounce));
     PM_TRY(
         pm_film_open(options->output, viewpoint.width, viewpoint.height, m->frames, &m->film));
