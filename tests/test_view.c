@@ -79,7 +79,7 @@ static void split_plane_is_seen(void)
     const uint8_t *with = pixel(&tree, on_plane);
     const uint8_t *without = pixel(&photons, on_plane);
     CHECK_CONTAINS(pm_seen_text(&tree, "note"),
-                   "5 photons, tree 3 deep; the first 1 depths: 1 planes");
+                   "5 photons, tree of height 2; planes down to depth 0: 1");
     // Okabe-Ito green over the background with opacity 0.33 adds that share of the difference.
     const double green[3] = {0.0, 158.0, 115.0};
     for (int c = 0; c < 3; c++) {

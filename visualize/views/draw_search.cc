@@ -13,8 +13,10 @@
 
 namespace {
 
-const int circle_sides = 96;
-const size_t circles_most = 4; // on the way to the last one
+const int ball_sides = 96;
+const int ring_sides = 28;      // many short lines have gaps
+const double ring_radius = 8.5; // of photons found, in pixels of a picture 900 high
+const size_t circles_most = 4;  // on the way to the last one
 
 /// Dark ones would be lost on the ground.
 pm_colour order_colour(double position)
@@ -54,16 +56,34 @@ void draw_cells(pm_figure *figure, const pm_visit_set *search)
     figure->renderer->AddActor(boxes.actor(figure->pixels(1.4), 1.0));
 }
 
+/// The rectangles that the plane through the point across `axis` cuts out of the cells.
+void draw_cut_cells(pm_figure *figure, const pm_visit_set *search, int axis)
+{
+    pm_drawing rectangles;
+    double plane = pm_vec_axis(search->at, axis);
+    auto flat = [&](pm_vec3 p) {
+        return pm_vec(axis == 0 ? plane : p.x, axis == 1 ? plane : p.y,
+                      axis == 2 ? plane : p.z);
+    };
+    for (uint64_t i = 0; i < search->count; i++) {
+        const pm_visited &visit = search->visits[i];
+        if (pm_vec_axis(visit.low, axis) <= plane && pm_vec_axis(visit.high, axis) >= plane) {
+            add_box(&rectangles, flat(visit.low), flat(visit.high), colour_of(search, i), 0.8);
+        }
+    }
+    figure->renderer->AddActor(rectangles.actor(figure->pixels(1.8), 1.0));
+}
+
 void add_circle(pm_drawing *drawing, const pm_viewpoint &v, pm_vec3 at, double radius,
-                pm_colour colour, double opacity)
+                int sides, double opacity)
 {
     std::vector<pm_vec3> rim;
-    for (int i = 0; i < circle_sides; i++) {
-        double phi = 2.0 * PM_PI * i / circle_sides;
+    for (int i = 0; i < sides; i++) {
+        double phi = 2.0 * PM_PI * i / sides;
         pm_vec3 along = pm_vec_along(pm_vec_scale(v.right, std::cos(phi)), v.up, std::sin(phi));
         rim.push_back(pm_vec_along(at, along, radius));
     }
-    drawing->outline(rim, colour, opacity);
+    drawing->outline(rim, pm_colour_named(PM_COLOUR_WHITE), opacity);
 }
 
 /// The visits after which the ball is drawn: some of those that made it smaller, and the last.
@@ -91,27 +111,36 @@ void draw_balls(pm_figure *figure, const pm_visit_set *search)
     std::vector<uint64_t> balls = choose_balls(search);
     for (uint64_t visit : balls) {
         pm_drawing *to = visit == balls.back() ? &last : &on_the_way;
-        add_circle(to, figure->viewpoint, search->at, search->visits[visit].radius,
-                   pm_colour_named(PM_COLOUR_WHITE), visit == balls.back() ? 1.0 : 0.55);
+        add_circle(to, figure->viewpoint, search->at, search->visits[visit].radius, ball_sides,
+                   visit == balls.back() ? 1.0 : 0.55);
     }
     figure->renderer->AddActor(on_the_way.actor(figure->pixels(1.2), 1.0));
     figure->renderer->AddActor(last.actor(figure->pixels(3.0), 1.0));
 }
 
-/// Photons of the answer have a light rim.
+/// How many metres a pixel is where `at` is seen.
+double metres_per_pixel(const pm_viewpoint &v, pm_vec3 at)
+{
+    double depth = pm_vec_dot(pm_vec_sub(at, v.position), v.forward);
+    return 2.0 * depth * v.tan_y / v.height;
+}
+
+/// Dots, and rings around those of the answer.
 void draw_photons(pm_figure *figure, const pm_visit_set *search)
 {
-    pm_drawing rims;
+    pm_drawing rings;
     pm_drawing dots;
+    const pm_viewpoint &v = figure->viewpoint;
     for (uint64_t i = 0; i < search->count; i++) {
         const pm_visited &visit = search->visits[i];
         dots.dot(visit.position, colour_of(search, i), 1.0);
         if (visit.found) {
-            rims.dot(visit.position, pm_colour_named(PM_COLOUR_WHITE), 1.0);
+            double radius = figure->pixels(ring_radius) * metres_per_pixel(v, visit.position);
+            add_circle(&rings, v, visit.position, radius, ring_sides, 1.0);
         }
     }
-    figure->renderer->AddActor(rims.actor(1.0, figure->pixels(15.0)));
     figure->renderer->AddActor(dots.actor(1.0, figure->pixels(9.0)));
+    figure->renderer->AddActor(rings.actor(figure->pixels(2.0), 1.0));
 }
 
 void draw_cross(pm_figure *figure, const pm_visit_set *search, double arm)
@@ -127,10 +156,15 @@ void draw_cross(pm_figure *figure, const pm_visit_set *search, double arm)
 
 } // namespace
 
-pm_status pm_draw_search(pm_figure *figure, const pm_visit_set *search, double cross)
+pm_status pm_draw_search(pm_figure *figure, const pm_visit_set *search, int cut_across,
+                         double cross)
 {
     return pm_figure_guard("a search", [&] {
-        draw_cells(figure, search);
+        if (cut_across < 0) {
+            draw_cells(figure, search);
+        } else {
+            draw_cut_cells(figure, search, cut_across);
+        }
         draw_balls(figure, search);
         draw_photons(figure, search);
         draw_cross(figure, search, cross);
@@ -147,10 +181,9 @@ pm_status pm_draw_search_legend(pm_figure *figure, const pm_visit_set *search, b
         PM_TRY(pm_figure_scale(figure, &order));
         const pm_colour white = pm_colour_named(PM_COLOUR_WHITE);
         const pm_legend_entry signs[] = {
-            {PM_SWATCH_LINE, pm_colour_named(PM_COLOUR_VERMILLION),
-             "cross: the point asked about"},
-            {PM_SWATCH_DOT, white, "white rim: found"},
-            {PM_SWATCH_LINE, white, "bold circle: ball in the end"},
+            {PM_SWATCH_LINE, pm_colour_named(PM_COLOUR_VERMILLION), "cross: asked about here"},
+            {PM_SWATCH_DOT, white, "ring: one of the nearest"},
+            {PM_SWATCH_LINE, white, "bold circle: final ball"},
             {PM_SWATCH_LINE, pm_colour_dim(white, 0.55), "thin: ball on the way"},
             {PM_SWATCH_DOT, pm_colour_named(PM_COLOUR_GREY), "dim: never looked at"},
         };

@@ -13,8 +13,11 @@ extern "C" {
 /// at as dots, both in the colour of their order, rings around the photons of the answer, the
 /// ball after some of the visits as circles, the last one bold, and a cross at the point asked
 /// about.
-/// @param cross  length of the cross's arms [m]
-pm_status pm_draw_search(pm_figure *figure, const pm_visit_set *search, double cross);
+/// @param cut_across  cells are shown where the plane through the point across this axis cuts
+///                    them; -1: whole
+/// @param cross       length of the cross's arms [m]
+pm_status pm_draw_search(pm_figure *figure, const pm_visit_set *search, int cut_across,
+                         double cross);
 
 /// The scale of the order and what the signs mean, in the right column.
 /// @param others  whether photons that were not looked at are shown, too

@@ -2,16 +2,13 @@
 // tree.
 #include "view_backdrop.h"
 
-#include "draw_photons.h"
 #include "photon_cloud.h"
 #include "photon_file.h"
 #include "photon_map.h"
 
 #include <stdlib.h>
 
-#define BRIGHTNESS 0.6
 #define MOST 20000
-#define FEW 5000 // so many or fewer get larger dots
 
 static void release(void *data)
 {
@@ -63,9 +60,4 @@ pm_status pm_view_backdrop_read(pm_view *view, const char *path, const char *oth
     }
     *map = read;
     return PM_OK;
-}
-
-pm_status pm_view_backdrop_draw(pm_view *view, const pm_photon_cloud *cloud)
-{
-    return pm_draw_photons(view->figure, cloud, cloud->count > FEW ? 1.5 : 2.2, BRIGHTNESS);
 }

@@ -18,7 +18,4 @@ pm_status pm_view_backdrop_read(pm_view *view, const char *path, const char *oth
                                 uint64_t photons, pm_photon_map *map,
                                 const pm_photon_cloud **cloud);
 
-/// Draws them in the current panel.
-pm_status pm_view_backdrop_draw(pm_view *view, const pm_photon_cloud *cloud);
-
 #endif

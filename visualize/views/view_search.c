@@ -1,5 +1,6 @@
 // view search: what one query looks at, in order, until it has the k nearest photons.
 #include "chart.h"
+#include "draw_photons.h"
 #include "draw_search.h"
 #include "photon_map.h"
 #include "view.h"
@@ -64,7 +65,7 @@ static pm_viewpoint close_viewpoint(const pm_view *view, const pm_visit_set *sea
     static const pm_vec3 axes[3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
     pm_viewpoint all = pm_viewpoint_fill(&view->scene, where->width, where->height);
     pm_vec3 forward = axes[thin_axis(search)];
-    if (pm_vec_dot(forward, all.forward) < 0.0) {
+    if (pm_vec_dot(forward, pm_vec_sub(search->at, all.position)) < 0.0) {
         forward = pm_vec_negate(forward);
     }
     bool level = fabs(pm_vec_dot(forward, all.up)) < 0.7;
@@ -74,18 +75,26 @@ static pm_viewpoint close_viewpoint(const pm_view *view, const pm_visit_set *sea
                             level ? all.up : all.forward, where->width, where->height);
 }
 
-static pm_status draw_panel(pm_view *view, const page *p, int index)
+static pm_status draw_overview(pm_view *view, const page *p)
 {
     const pm_visit_set *search = &p->searches[PM_TREE_BALANCED];
-    const pm_rect *where = &p->panel[index];
-    double cross = index == 0 ? 0.06 * view->scene.radius : 0.15 * last_radius(search);
-    pm_viewpoint close = close_viewpoint(view, search, where);
-    PM_TRY(pm_view_wordless_panel(view, where, index == 0 ? NULL : &close,
-                                  index == 0 ? "the whole scene" : "around the point"));
+    PM_TRY(pm_view_wordless_panel(view, &p->panel[0], NULL, "the whole scene"));
     if (p->cloud != NULL) {
-        PM_TRY(pm_view_backdrop_draw(view, p->cloud));
+        PM_TRY(pm_draw_photons(view->figure, p->cloud, 1.5, 0.45));
     }
-    return pm_draw_search(view->figure, search, cross);
+    return pm_draw_search(view->figure, search, -1, 0.06 * view->scene.radius);
+}
+
+static pm_status draw_close(pm_view *view, const page *p)
+{
+    const pm_visit_set *search = &p->searches[PM_TREE_BALANCED];
+    pm_viewpoint close = close_viewpoint(view, search, &p->panel[1]);
+    PM_TRY(
+        pm_view_wordless_panel(view, &p->panel[1], &close, "around the point, cells cut open"));
+    if (p->cloud != NULL) {
+        PM_TRY(pm_draw_photons(view->figure, p->cloud, 5.0, 0.4));
+    }
+    return pm_draw_search(view->figure, search, thin_axis(search), 0.12 * last_radius(search));
 }
 
 /// The radius after each visit, from where it is limited on.
@@ -120,7 +129,8 @@ static pm_status draw_radius(pm_chart *chart, const pm_visit_set *search, int ki
 static pm_status draw_chart(pm_view *view, const page *p)
 {
     const pm_chart_axes axes = {.x_title = "photons looked at so far",
-                                .y_title = "radius of the ball [m]"};
+                                .y_title = "radius of the ball [m]",
+                                .y_log = true};
     pm_chart *chart = NULL;
     PM_TRY(pm_chart_open(view->figure, &p->chart, &axes, &chart));
     for (int kind = 0; kind < PM_TREE_KINDS; kind++) {
@@ -143,14 +153,14 @@ static void write_note(pm_view *view, const page *p)
     char other[PM_VIEW_GROUPED_MAX];
     char photons[PM_VIEW_GROUPED_MAX];
     char found[PM_VIEW_GROUPED_MAX];
-    pm_view_note(view,
-                 "%s of %s photons looked at to find the %s nearest; in a tree that is not "
-                 "balanced %s\n"
-                 "first down to the point's own cell, then only where the ball still reaches",
-                 pm_view_grouped(search->count, visited),
-                 pm_view_grouped(search->photons, photons),
-                 pm_view_grouped(search->found, found),
-                 pm_view_grouped(p->searches[PM_TREE_UNBALANCED].count, other));
+    pm_view_note(
+        view,
+        "%s of %s photons looked at to find the %s nearest; %s in the tree that is not "
+        "balanced\n"
+        "first down to the point's own cell, then only where the ball still reaches",
+        pm_view_grouped(search->count, visited), pm_view_grouped(search->photons, photons),
+        pm_view_grouped(search->found, found),
+        pm_view_grouped(p->searches[PM_TREE_UNBALANCED].count, other));
 }
 
 static pm_status draw_page(pm_view *view, page *p)
@@ -160,9 +170,8 @@ static pm_status draw_page(pm_view *view, page *p)
     view->drawn = p->searches[PM_TREE_BALANCED].count;
     pm_view_fact(view, "balanced", facts_of(&p->searches[PM_TREE_BALANCED]));
     pm_view_fact(view, "unbalanced", facts_of(&p->searches[PM_TREE_UNBALANCED]));
-    for (int i = 0; i < 2; i++) {
-        PM_TRY(draw_panel(view, p, i));
-    }
+    PM_TRY(draw_overview(view, p));
+    PM_TRY(draw_close(view, p));
     const pm_visit_set *search = &p->searches[PM_TREE_BALANCED];
     PM_TRY(pm_draw_search_legend(view->figure, search, p->cloud != NULL));
     PM_TRY(pm_draw_search_keep(view->figure, search));

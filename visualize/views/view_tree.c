@@ -1,4 +1,5 @@
 // view tree: the split planes of a balanced map.
+#include "draw_photons.h"
 #include "draw_tree.h"
 #include "photon_file.h"
 #include "photon_map.h"
@@ -7,13 +8,15 @@
 #include "view_backdrop.h"
 #include "view_kinds.h"
 
+#define FEW 5000 // so many photons or fewer get larger dots
+
 static pm_status draw_backdrop(pm_view *view, const pm_photon_map *map)
 {
     char shown[PM_VIEW_GROUPED_MAX];
     const pm_photon_cloud *cloud = NULL;
     PM_TRY(pm_view_backdrop_make(view, map, &cloud));
     pm_view_note(view, "; dots: %s photons", pm_view_grouped(cloud->count, shown));
-    return pm_view_backdrop_draw(view, cloud);
+    return pm_draw_photons(view->figure, cloud, cloud->count > FEW ? 1.5 : 2.2, 0.6);
 }
 
 static pm_status draw_planes(pm_view *view, const pm_tree_split_set *tree)

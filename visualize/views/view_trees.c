@@ -1,5 +1,6 @@
 // view trees: the same photons in two trees, one balanced and one that grew as they came.
 #include "chart.h"
+#include "draw_photons.h"
 #include "draw_tree.h"
 #include "photon_map.h"
 #include "tree_table.h"
@@ -45,7 +46,7 @@ static pm_status draw_one(pm_view *view, const page *p, int kind)
              (unsigned long long)tree->height, tree->visited_mean);
     PM_TRY(pm_view_wordless_panel(view, where, NULL, heading));
     if (p->cloud != NULL) {
-        PM_TRY(pm_view_backdrop_draw(view, p->cloud));
+        PM_TRY(pm_draw_photons(view->figure, p->cloud, 1.5, 0.6));
     }
     PM_TRY(pm_draw_tree(view->figure, &tree->splits, (int)view->options->depth,
                         kept_names[kind], view->scene.center, &drawn));
