@@ -26,8 +26,7 @@ class path_table {
     path_table()
     {
         step->SetName("step");
-        event->SetName("event: 0 light 1 diffuse 2 specular 3 transmitted 4 medium 5 absorbed "
-                       "6 escaped 7 cut");
+        event->SetName("event (L 0, D 1, S 2, T 3, V 4, A 5, E 6, C 7)");
         power->SetName("power [W]");
         power->SetNumberOfComponents(3);
         photon->SetName("photon");
