@@ -298,8 +298,11 @@ static void write_note(pm_view *view, const job *j)
         const pm_cell_map *map = &j->set.maps[i];
         if (map->light == j->map[0]->light) {
             uint64_t cells = (uint64_t)map->rows * map->columns;
-            pm_view_note(view, "; %s map: %s of %s cells lit", map->map,
-                         pm_view_grouped(map->lit, lit), pm_view_grouped(cells, all));
+            bool none = cells == 1 && map->lit == 0;
+            pm_view_note(view,
+                         none ? "; %s map: nothing to aim at (%s of %s cells lit)"
+                              : "; %s map: %s of %s cells lit",
+                         map->map, pm_view_grouped(map->lit, lit), pm_view_grouped(cells, all));
         }
     }
     for (int i = 0; i < j->count; i++) {

@@ -89,7 +89,8 @@ static void write_note(pm_view *view, const pm_ray_set *rays, const pm_ray_choic
         pm_view_note(view, ", %s with an arrow", pm_view_grouped(choice->arrows, few));
     }
     if (past > 0) {
-        pm_view_note(view, "; %s from outside go past the scene", pm_view_grouped(past, few));
+        pm_view_note(view, "; %s from outside go%s past the scene", pm_view_grouped(past, few),
+                     past == 1 ? "es" : "");
     }
 }
 

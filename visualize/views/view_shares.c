@@ -101,9 +101,10 @@ static void write_note(pm_view *view, const pm_emission_report *report, const ch
 {
     char count[PM_VIEW_GROUPED_MAX];
     char lit[PM_VIEW_GROUPED_MAX];
-    pm_view_note(view, "%s",
-                 "photons are shared out by power: bars of the same height mean that "
-                 "every photon carries the same\n");
+    pm_view_note(
+        view, "%s",
+        "two bars as high mean that a light's photons carry as much each as all others "
+        "do on average\n");
     pm_view_note(view, "%s photons carry %.4g of %.4g W",
                  pm_view_grouped(report->photons, count), report->sent, report->power);
     if (report->cells > 0) {
