@@ -122,7 +122,7 @@ pm_status pm_draw_weights(pm_figure *figure, const pm_weighed_set *set, int kern
         pm_frame frame = pm_frame_around(set->normal);
         pm_drawing drawing;
         drawing.outline(circle(frame, set->at, set->radius, sides),
-                        pm_colour_named(PM_COLOUR_WHITE), 0.9);
+                        pm_colour_named(PM_COLOUR_WHITE), 1.0);
         double step = 0.5 * lift * set->radius / set->count;
         double height = 0.0;
         for (uint32_t i : by_weight(set, kernel)) {
@@ -133,7 +133,9 @@ pm_status pm_draw_weights(pm_figure *figure, const pm_weighed_set *set, int kern
                     {full * std::max(smallest, part_of(weight, high)), step, weight != 0.0,
                      pm_colour_viridis((weight - low) / (high - low))});
         }
-        figure->renderer->AddActor(drawing.actor(figure->pixels(1.8), 1.0));
+        vtkSmartPointer<vtkActor> actor = drawing.actor(figure->pixels(1.8), 1.0);
+        actor->ForceOpaqueOn(); // or borders would shine through the dots on them
+        figure->renderer->AddActor(actor);
         return PM_OK;
     });
 }

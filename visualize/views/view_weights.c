@@ -12,7 +12,7 @@
 #define ROWS 2
 #define COLUMNS 2
 #define AROUND 1.06        // half a panel, in radii
-#define OVERVIEW_900 190.0 // height of the panel that shows where it is
+#define OVERVIEW_900 230.0 // height of the panel that shows where it is
 #define EDGE_900 24.0
 #define PIN 0.35 // length of the pin in the overview, in scene radii
 #define GAP_900 10.0
@@ -108,7 +108,7 @@ static pm_status draw_overview(pm_view *view, const pm_weighed_set *set)
     int high = (int)pm_figure_pixels_of(view->figure, OVERVIEW_900);
     int left = (int)((1.0 - PM_VIEWPOINT_RIGHT) * width) + edge;
     pm_rect where = {left, height - edge - high, width - edge - left, high};
-    PM_TRY(pm_view_scene_panel(view, &where, "where it is"));
+    PM_TRY(pm_view_wordless_panel(view, &where, NULL, "where it is"));
     return pm_draw_weights_place(view->figure, set, PIN * view->scene.radius);
 }
 
