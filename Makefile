@@ -66,9 +66,9 @@ GSL_LIBS := -lgsl -lgslcblas
 WEBP_LIBS := -lwebp -lwebpmux
 # VTK has no pkg-config file in Debian 12.
 VTK_MODULES := IOXML IOImage RenderingAnnotation RenderingOpenGL2 RenderingFreeType \
-  InteractionStyle RenderingUI RenderingCore FiltersSources FiltersCore CommonColor CommonExecutionModel \
-  CommonTransforms CommonDataModel CommonMath CommonCore ChartsCore ViewsContext2D ViewsCore \
-  RenderingContextOpenGL2 RenderingContext2D sys
+  InteractionStyle RenderingUI RenderingCore FiltersSources FiltersCore CommonColor \
+  CommonExecutionModel CommonTransforms CommonDataModel CommonMath CommonCore ChartsCore \
+  ViewsContext2D ViewsCore RenderingContextOpenGL2 RenderingContext2D sys
 VTK_LIBS := -Wl,--as-needed $(VTK_MODULES:%=-lvtk%-$(VTK_SUFFIX)) -lGLEW -lEGL -ldl
 
 # A make below this one, with as many jobs as there are cores unless told otherwise.
@@ -175,12 +175,14 @@ $(BUILD)/parts:
 
 # --- tests ------------------------------------------------------------------------------------
 ATTACKS := $(BUILD)/tests/attacks
+VTP := $(if $(VTK_INCLUDE),$(BUILD)/tests/vtp/print)
 CHARTS := $(if $(VIEW),$(BUILD)/tests/charts/sample)
 # Tests find programs by their full path, so that a test may change its folder.
 $(RUNNER): DEFINE = -DPM_TEST_BIN='"$(abspath $(BIN))"' $(if $(VIEW),,-DPM_TEST_WITHOUT='" view "')
 $(BUILD)/tests/test_runner.o: DEFINE = -DPM_TEST_ATTACKS='"$(abspath $(ATTACKS))"'
 $(BUILD)/tests/test_chart.o: DEFINE = -DPM_TEST_CHARTS='"$(abspath $(CHARTS))"'
 $(BUILD)/tests/test_scenes.o: DEFINE = -DPM_TEST_MESHES='"$(abspath $(MAKE_MESHES))"'
+$(BUILD)/tests/test_view_vtp.o: DEFINE = -DPM_TEST_VTP='"$(abspath $(BUILD)/tests/vtp/print)"'
 $(TESTS): DEFINE += -Itests
 
 $(BUILD)/tests/run: $(RUNNER) $(TESTS) $(CORE) $(VISUALIZE)
@@ -195,7 +197,12 @@ $(CHARTS): %: %.o $(call objects,$(wildcard visualize/figure/*.c*)) $(CORE)
 	$(call tell,link $@)
 	$(HIDE)$(LINK_CXX) -o $@ $^ $(VTK_LIBS) $(WEBP_LIBS) $(PART_LIBS)
 
-build-tests: all $(BUILD)/tests/run $(ATTACKS) $(CHARTS) $(MAKE_MESHES)
+# Reads .vtp files by VTK, which the tests do not link.
+$(VTP): %: %.o
+	$(call tell,link $@)
+	$(HIDE)$(LINK_CXX) -o $@ $< $(VTK_LIBS) $(PART_LIBS)
+
+build-tests: all $(BUILD)/tests/run $(ATTACKS) $(CHARTS) $(MAKE_MESHES) $(VTP)
 
 test: ## build, then run the tests (ONLY=tag for some, SAN=1 with sanitizers)
 	@$(AGAIN) build-tests
@@ -225,7 +232,8 @@ $(ALIKE): %: %.o
 	$(HIDE)$(LINK) -o $@ $< -lpng -lwebp
 
 # quality takes an hour, so it runs when it is named.
-BENCHES := promises plan direct caustics precompute projection $(filter quality,$(ONLY))
+BENCHES := promises plan direct caustics precompute projection $(if $(VIEW),views) \
+  $(filter quality,$(ONLY))
 bench: all $(BENCH_PROGRAMS) $(BIN)/render-without-caustics ## measure against the promises (ONLY=plan for one)
 	@for b in $(filter $(ONLY)%,$(BENCHES)); do \
 	  echo "$$b:"; tests/bench/run $(BUILD) $(BIN) $$b || exit; done

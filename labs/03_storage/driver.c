@@ -2,6 +2,7 @@
 // written as files or such a file is checked.
 #include "map_make.h"
 #include "map_power.h"
+#include "packing_loss.h"
 #include "photon_dump.h"
 #include "photon_file.h"
 #include "photon_map.h"
@@ -34,14 +35,6 @@ static const pm_options_program program = {
              "a medium).",
 };
 
-/// What packing changed, over all photons of all maps.
-typedef struct {
-    pm_spectrum exact, packed;   // [W]
-    double error2, power2;       // squares of channel errors and of channel powers
-    double angle_sum, angle_max; // [rad]
-    uint64_t count;
-} losses;
-
 typedef struct {
     const pm_options *options;
     pm_world world;
@@ -49,39 +42,10 @@ typedef struct {
     pm_projections aim[PM_MAP_COUNT];
     bool has[PM_MAP_COUNT];
     pm_photon_dump dump;
-    losses packing;
+    pm_packing_loss packing; // over all photons of all maps
 } pm_job;
 
-// --- what packing costs ---------------------------------------------------------------------
-
-static void compare(const pm_photon_view *exact, const pm_photon_view *packed, losses *sum)
-{
-    sum->exact = pm_spectrum_add(sum->exact, exact->power);
-    sum->packed = pm_spectrum_add(sum->packed, packed->power);
-    for (int c = 0; c < 3; c++) {
-        double error = packed->power.c[c] - exact->power.c[c];
-        sum->error2 += error * error;
-        sum->power2 += exact->power.c[c] * exact->power.c[c];
-    }
-    double across = pm_vec_length(pm_vec_cross(exact->direction, packed->direction));
-    double angle = atan2(across, pm_vec_dot(exact->direction, packed->direction));
-    sum->angle_sum += angle;
-    sum->angle_max = fmax(sum->angle_max, angle);
-    sum->count++;
-}
-
-/// `map` keeps both forms; the packed one is seen through a copy without the other.
-static void measure_packing(const pm_photon_map *map, losses *sum)
-{
-    pm_photon_map bytes = *map;
-    bytes.unpacked = false;
-    bytes.exact = NULL;
-    for (uint32_t i = 0; i < map->count; i++) {
-        pm_photon_view exact = pm_store_unpack(map, i);
-        pm_photon_view packed = pm_store_unpack(&bytes, i);
-        compare(&exact, &packed, sum);
-    }
-}
+// --- making maps ----------------------------------------------------------------------------
 
 static void drop_exact(pm_photon_map *map)
 {
@@ -89,8 +53,6 @@ static void drop_exact(pm_photon_map *map)
     map->exact = NULL;
     map->unpacked = false;
 }
-
-// --- making maps ----------------------------------------------------------------------------
 
 static pm_status make_map(pm_job *job, pm_map_kind kind)
 {
@@ -107,7 +69,7 @@ static pm_status make_map(pm_job *job, pm_map_kind kind)
     pm_photon_map *map = &job->map[kind];
     PM_TRY(pm_photon_pass(&job->world.rays, kind, &settings, map, NULL));
     job->has[kind] = true;
-    measure_packing(map, &job->packing);
+    pm_packing_loss_add(&job->packing, map);
     if (!options->unpacked) {
         drop_exact(map);
     }
@@ -178,25 +140,6 @@ static int bytes_per_photon(const pm_job *job)
     return (int)(sizeof(pm_photon) + (exact ? sizeof(pm_photon_exact) : 0));
 }
 
-static double degrees(double radians)
-{
-    return radians * (180.0 / PM_PI);
-}
-
-static double ratio(double a, double b)
-{
-    return b > 0.0 ? a / b : 0.0;
-}
-
-static pm_spectrum bias_of(const losses *sum)
-{
-    pm_spectrum bias;
-    for (int c = 0; c < 3; c++) {
-        bias.c[c] = ratio(sum->packed.c[c] - sum->exact.c[c], sum->exact.c[c]);
-    }
-    return bias;
-}
-
 static void print_table(const pm_job *job)
 {
     printf("%-8s %12s %12s %12s %12s %12s\n", "map", "emitted", "stored", "red [W]",
@@ -210,13 +153,13 @@ static void print_table(const pm_job *job)
                    power.c[2]);
         }
     }
-    const losses *sum = &job->packing;
-    pm_spectrum bias = bias_of(sum);
+    const pm_packing_loss *loss = &job->packing;
+    pm_spectrum bias = pm_packing_loss_bias(loss);
     printf("%d bytes a photon\n", bytes_per_photon(job));
     printf("packing: power off by %+.3g %+.3g %+.3g in the mean, by %.3g rms;"
            " direction by %.3f degrees in the mean, %.3f at most\n",
-           bias.c[0], bias.c[1], bias.c[2], sqrt(ratio(sum->error2, sum->power2)),
-           degrees(ratio(sum->angle_sum, (double)sum->count)), degrees(sum->angle_max));
+           bias.c[0], bias.c[1], bias.c[2], pm_packing_loss_rms(loss),
+           pm_packing_loss_mean_degrees(loss), pm_packing_loss_max_degrees(loss));
 }
 
 static json_t *maps_json(const pm_job *job)
@@ -234,17 +177,6 @@ static json_t *maps_json(const pm_job *job)
     return maps;
 }
 
-static json_t *packing_json(const losses *sum)
-{
-    double mean = ratio(sum->angle_sum, (double)sum->count);
-    json_t *object =
-        pm_report_add(json_object(), "power_bias", pm_report_spectrum(bias_of(sum)));
-    object =
-        pm_report_add(object, "power_rms", json_real(sqrt(ratio(sum->error2, sum->power2))));
-    object = pm_report_add(object, "angle_mean_deg", json_real(degrees(mean)));
-    return pm_report_add(object, "angle_max_deg", json_real(degrees(sum->angle_max)));
-}
-
 static pm_status report(const pm_job *job)
 {
     if (!job->options->json) {
@@ -252,7 +184,7 @@ static pm_status report(const pm_job *job)
     }
     json_t *object = json_pack("{s:i}", "bytes_per_photon", bytes_per_photon(job));
     object = pm_report_add(object, "maps", maps_json(job));
-    object = pm_report_add(object, "packing", packing_json(&job->packing));
+    object = pm_report_add(object, "packing", pm_packing_loss_json(&job->packing));
     object = pm_report_add(object, "notes", pm_report_notes(&job->world.scene));
     return pm_report_end(job->options, object);
 }

@@ -9,7 +9,7 @@
 #define BOUNCES 6 // 0, 1, 2, 3, 4, and all above
 #define LIGHTS 7  // that have a colour of their own
 #define BRIGHTEST 1.0
-#define DARKEST 0.22
+#define DARKEST 0.32
 
 static void add(pm_photon_classes *classes, const char *text, pm_colour colour)
 {
@@ -32,7 +32,7 @@ static void add_bounces(pm_photon_classes *classes)
     static const char *const texts[BOUNCES] = {"none", "1", "2", "3", "4", "5 or more"};
     for (int i = 0; i < BOUNCES; i++) {
         double at = BRIGHTEST + (DARKEST - BRIGHTEST) * i / (BOUNCES - 1);
-        add(classes, texts[i], pm_colour_viridis(at));
+        add(classes, texts[i], pm_colour_inferno(at));
     }
 }
 
