@@ -3,9 +3,12 @@
 #include "command.h"
 
 #include <dirent.h>
+#include <stdbool.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 enum { MAX_WORDS = 40, MAX_WORD = 1200, MAX_PATHS = 64 };
 static const double patience = 50.0; // [s]
@@ -54,6 +57,25 @@ pm_test_ran pm_command_run(const char *line, const char *scene, const char *outp
     made = (command){.count = 0};
     add_line(&made, line, scene, output);
     return pm_test_run(made.argv, patience);
+}
+
+pid_t pm_command_start(const char *line, const char *scene, const char *output, const char *out,
+                       const char *err)
+{
+    static command made;
+    made = (command){.count = 0};
+    add_line(&made, line, scene, output);
+    pid_t pid = fork();
+    if (pid == 0) {
+        bool ready = freopen(out, "wb", stdout) && freopen(err, "wb", stderr) &&
+                     chdir(pm_test_folder()) == 0;
+        if (ready) {
+            execv(made.argv[0], (char *const *)(uintptr_t)made.argv);
+        }
+        _exit(127);
+    }
+    CHECK(pid > 0);
+    return pid;
 }
 
 pm_test_ran pm_command_interrupt(const char *line, const char *scene, const char *output,

@@ -4,11 +4,18 @@
 
 #include "test.h"
 
+#include <sys/types.h>
+
 /// Runs a program of this build: "render {S} -k 5 -o {O}". Words are separated by blanks; in
 /// them {S} stands for `scene`, {O} for `output`.
 pm_test_ran pm_command_run(const char *line, const char *scene, const char *output);
 
-/// As above, with SIGINT sent after `seconds`.
+/// Starts such a run in the test's folder and does not wait for it; what it says goes into
+/// these files.
+pid_t pm_command_start(const char *line, const char *scene, const char *output, const char *out,
+                       const char *err);
+
+/// As pm_command_run(), with SIGINT sent after `seconds`.
 pm_test_ran pm_command_interrupt(const char *line, const char *scene, const char *output,
                                  double seconds);
 

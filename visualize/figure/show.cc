@@ -37,7 +37,6 @@ pm_status run(pm_figure *figure, const char *title, pm_vec3 center)
     resized->SetCallback(redraw);
     vtkNew<vtkRenderWindowInteractor> hand;
     figure->window->SetOffScreenRendering(0);
-    figure->window->SetWindowName(title);
     figure->window->AddObserver(vtkCommand::StartEvent, before);
     hand->SetRenderWindow(figure->window);
     hand->SetInteractorStyle(look);
@@ -45,6 +44,7 @@ pm_status run(pm_figure *figure, const char *title, pm_vec3 center)
     hand->Initialize();
     hand->CreateRepeatingTimer(interrupt_every);
     figure->window->Render();
+    figure->window->SetWindowName(title); // now it hears keys
     hand->Start();
     hand->SetInteractorStyle(nullptr);
     figure->window->RemoveObserver(before);
