@@ -241,8 +241,8 @@ static void write_note(pm_view *view, const effort *e)
     const heat *count = &e->map[1];
     pm_view_note(
         view,
-        "Where photons lie far apart the radius is large and blurs; where they lie close it "
-        "is small. Global map.\n");
+        "Means over a pixel's look-ups in the global map: where photons lie far apart, the "
+        "radius is large and blurs.\n");
     pm_view_note(view,
                  "%s of %s pixels have an estimate: radius %.3g to %.3g m, mean %.3g m; "
                  "photons %.4g to %.4g, mean %.4g.",
@@ -264,6 +264,7 @@ static void tell(pm_view *view, const effort *e)
 static pm_status draw_effort(pm_view *view, effort *e)
 {
     PM_TRY(read_effort(view, e));
+    PM_TRY(pm_view_open_page(view));
     places at = lay_out(view->figure, &e->image);
     const pm_legend_entry grey = {PM_SWATCH_FILL, without, "no estimate there"};
     PM_TRY(draw_map(view, e, 0, &at));
@@ -274,10 +275,10 @@ static pm_status draw_effort(pm_view *view, effort *e)
     view->drawn = e->count;
     write_note(view, e);
     tell(view, e);
-    return PM_OK;
+    return pm_view_finish(view);
 }
 
-static pm_status draw(pm_view *view)
+static pm_status make(pm_view *view)
 {
     effort e = {0};
     pm_status status = draw_effort(view, &e);
@@ -294,5 +295,5 @@ const pm_view_kind pm_view_effort = {
     .scene = PM_VIEW_NO_SCENE,
     .options = "exposure",
     .title = "The effort behind each pixel: its radius and its photons",
-    .draw = draw,
+    .make = make,
 };

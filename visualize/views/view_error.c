@@ -260,6 +260,7 @@ static void tell(pm_view *view, const errors *e)
 static pm_status draw_errors(pm_view *view, errors *e)
 {
     PM_TRY(read_errors(view, e));
+    PM_TRY(pm_view_open_page(view));
     places at = lay_out(view->figure, &e->image[0]);
     PM_TRY(draw_pictures(view, e, &at));
     PM_TRY(draw_error(view, e, &at));
@@ -267,10 +268,10 @@ static pm_status draw_errors(pm_view *view, errors *e)
     view->drawn = e->pair.count;
     write_note(view, e);
     tell(view, e);
-    return PM_OK;
+    return pm_view_finish(view);
 }
 
-static pm_status draw(pm_view *view)
+static pm_status make(pm_view *view)
 {
     errors e = {0};
     pm_status status = draw_errors(view, &e);
@@ -290,5 +291,5 @@ const pm_view_kind pm_view_error = {
     .scene = PM_VIEW_NO_SCENE,
     .options = "exposure",
     .title = "Where the picture is wrong",
-    .draw = draw,
+    .make = make,
 };

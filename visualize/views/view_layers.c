@@ -268,13 +268,21 @@ static void tell(pm_view *view, const sum *s)
     pm_view_fact(view, "exposure", json_real(s->exposure));
 }
 
-static pm_status draw_sum(pm_view *view, sum *s)
+static pm_status read_sum(const pm_view *view, sum *s)
 {
     const char *path = view->files[0];
+    PM_TRY(pm_view_read_picture(path, &s->image));
     PM_TRY(check_layers(path, &s->image));
     PM_TRY(measure(path, s));
     PM_TRY(pm_exposure_of(&s->image, &s->exposure));
     s->exposure += view->options->exposure;
+    return PM_OK;
+}
+
+static pm_status draw_sum(pm_view *view, sum *s)
+{
+    PM_TRY(read_sum(view, s));
+    PM_TRY(pm_view_open_page(view));
     strip at = lay_out(view->figure, &s->image, count_shown(s));
     int number = 0;
     for (int t = 0; t < TERMS_MOST; t++) {
@@ -285,13 +293,12 @@ static pm_status draw_sum(pm_view *view, sum *s)
     view->drawn = (uint64_t)number;
     write_note(view, s, &at);
     tell(view, s);
-    return PM_OK;
+    return pm_view_finish(view);
 }
 
-static pm_status draw(pm_view *view)
+static pm_status make(pm_view *view)
 {
     sum s = {0};
-    PM_TRY(pm_view_read_picture(view->files[0], &s.image));
     pm_status status = draw_sum(view, &s);
     pm_image_free(&s.image);
     return status;
@@ -306,5 +313,5 @@ const pm_view_kind pm_view_layers = {
     .scene = PM_VIEW_NO_SCENE,
     .options = "exposure",
     .title = "A picture is the sum of its layers",
-    .draw = draw,
+    .make = make,
 };

@@ -64,8 +64,8 @@ static pm_status explain(pm_view *view, const trades *t)
         const char *text = groups->option != NULL ? groups->value[count] : "a setting";
         entries[count] = (pm_legend_entry){PM_SWATCH_DOT, pm_trade_chart_colour(count), text};
     }
-    entries[count++] = (pm_legend_entry){PM_SWATCH_LINE, pm_colour_named(PM_COLOUR_WHITE),
-                                         "Pareto line: the best there is"};
+    entries[count++] =
+        (pm_legend_entry){PM_SWATCH_LINE, pm_colour_named(PM_COLOUR_WHITE), "Pareto line"};
     return pm_figure_legend(view->figure, groups->option != NULL ? groups->option : "dots",
                             entries, count);
 }
@@ -80,7 +80,7 @@ static char *next_line(lines *l)
     return l->text[l->count++];
 }
 
-/// "3  photons 50k, gather 0", and below it "0.41 s, error 9.1 %, 14 MB".
+/// "3  photons 50k, gather 0", and below it "0.41 s, error 0.091, 14 MB".
 static void list_point(const pm_trade *trade, int number, lines *l)
 {
     char name[LINE_LETTERS];
@@ -92,8 +92,8 @@ static void list_point(const pm_trade *trade, int number, lines *l)
         return;
     }
     numbers = next_line(l);
-    int used = snprintf(numbers, sizeof l->text[0], "    %.3g s, error %.2g %%",
-                        p->seconds.mean, 100.0 * sqrt(fmax(p->rel_mse.mean, 0.0)));
+    int used = snprintf(numbers, sizeof l->text[0], "    %.3g s, error %.2g", p->seconds.mean,
+                        sqrt(fmax(p->rel_mse.mean, 0.0)));
     if (p->peak_bytes > 0.0) {
         snprintf(numbers + used, sizeof l->text[0] - (size_t)used, ", %.0f MB",
                  p->peak_bytes / 1e6);
@@ -159,7 +159,8 @@ static void write_note(pm_view *view, const pm_trade *trade, int drawn)
     pm_view_note(view,
                  "A dot is one setting, the mean of its runs; bars are one standard deviation "
                  "of a run. Left is faster, lower is better.\n");
-    pm_view_note(view, "%d setting%s, %d on the Pareto line: none other is faster and better.",
+    pm_view_note(view,
+                 "%d setting%s, %d on the Pareto line: no other is both faster and better.",
                  trade->point_count, trade->point_count == 1 ? "" : "s", trade->pareto_count);
     if (drawn < trade->point_count) {
         pm_view_note(view, "  %d not drawn: error 0 or below.", trade->point_count - drawn);
@@ -193,6 +194,7 @@ static pm_status draw_trade(pm_view *view, trades *t)
                               view->files[0]);
     }
     PM_TRY(pm_trade_group(&t->trade, &t->groups));
+    PM_TRY(pm_view_open_page(view));
     PM_TRY(draw_charts(view, t));
     PM_TRY(explain(view, t));
     PM_TRY(list_settings(view, &t->trade));
@@ -200,10 +202,10 @@ static pm_status draw_trade(pm_view *view, trades *t)
     view->drawn = (uint64_t)drawn;
     write_note(view, &t->trade, drawn);
     tell(view, t);
-    return PM_OK;
+    return pm_view_finish(view);
 }
 
-static pm_status draw(pm_view *view)
+static pm_status make(pm_view *view)
 {
     trades t = {0};
     pm_status status = draw_trade(view, &t);
@@ -221,5 +223,5 @@ const pm_view_kind pm_view_trade = {
     .scene = PM_VIEW_NO_SCENE,
     .options = "",
     .title = "Speed for accuracy",
-    .draw = draw,
+    .make = make,
 };
