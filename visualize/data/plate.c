@@ -126,7 +126,7 @@ static void enlarge(const pm_plate *from, int zoom, pm_plate *to)
 
 pm_status pm_plate_zoom(pm_plate *plate, int zoom)
 {
-    pm_plate zoomed;
+    pm_plate zoomed = {0};
     PM_TRY(pm_plate_make(pm_plate_length(plate->width, zoom),
                          pm_plate_length(plate->height, zoom), &zoomed));
     if (zoom > 0) {

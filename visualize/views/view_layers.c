@@ -158,8 +158,8 @@ static strip lay_rows(const pm_figure *figure, const pm_image *image, int count,
 /// The largest pictures that fit; of equal ones those in the fewest rows.
 static strip lay_out(const pm_figure *figure, const pm_image *image, int count)
 {
-    strip best = {0};
-    for (int rows = 1; rows <= count; rows++) {
+    strip best = lay_rows(figure, image, count, 1);
+    for (int rows = 2; rows <= count; rows++) {
         strip s = lay_rows(figure, image, count, rows);
         best = s.width > best.width ? s : best;
     }
