@@ -162,12 +162,12 @@ static pm_status draw_chart(pm_view *view, const pm_direction_light *s, bool bes
 static pm_status write_single(pm_view *view, const pm_direction_light *s, const pm_rect *where)
 {
     char text[160];
-    char off[PM_VIEW_GROUPED_MAX];
     double size = pm_figure_pixels_of(view->figure, 18.0);
     int used = snprintf(text, sizeof text, "%s", "parallel light has one direction:\n");
     if (s->tally.strays == 0) {
         snprintf(text + used, sizeof text - (size_t)used, "%s", "all its photons keep to it");
     } else {
+        char off[PM_VIEW_GROUPED_MAX];
         snprintf(text + used, sizeof text - (size_t)used, "%s of its photons leave it",
                  pm_view_grouped(s->tally.strays, off));
     }

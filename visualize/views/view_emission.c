@@ -73,7 +73,6 @@ static void write_note(pm_view *view, const pm_ray_set *rays, const pm_ray_choic
                        int only)
 {
     char all[PM_VIEW_GROUPED_MAX];
-    char some[PM_VIEW_GROUPED_MAX];
     char few[PM_VIEW_GROUPED_MAX];
     uint64_t past = count_past(choice, &view->scene, only);
     uint64_t sent = only == PM_NONE ? rays->count : choice->light[only].count;
@@ -83,7 +82,7 @@ static void write_note(pm_view *view, const pm_ray_set *rays, const pm_ray_choic
     pm_view_note(view, "%s photon%s leave%s", pm_view_grouped(sent, all), sent == 1 ? "" : "s",
                  sent == 1 ? "s" : "");
     if (choice->count < sent - past) {
-        pm_view_note(view, ", %s drawn", pm_view_grouped(choice->count, some));
+        pm_view_note(view, ", %s drawn", pm_view_grouped(choice->count, few));
     }
     if (choice->arrows < choice->count) {
         pm_view_note(view, ", %s with an arrow", pm_view_grouped(choice->arrows, few));

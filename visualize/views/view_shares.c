@@ -100,7 +100,6 @@ static pm_status draw_chart(pm_view *view, const pm_emission_report *report, con
 static void write_note(pm_view *view, const pm_emission_report *report, const choice *c)
 {
     char count[PM_VIEW_GROUPED_MAX];
-    char lit[PM_VIEW_GROUPED_MAX];
     pm_view_note(
         view, "%s",
         "two bars as high mean that a light's photons carry as much each as all others "
@@ -108,6 +107,7 @@ static void write_note(pm_view *view, const pm_emission_report *report, const ch
     pm_view_note(view, "%s photons carry %.4g of %.4g W",
                  pm_view_grouped(report->photons, count), report->sent, report->power);
     if (report->cells > 0) {
+        char lit[PM_VIEW_GROUPED_MAX];
         pm_view_note(view, "; aimed lights send only through %s of %s cells",
                      pm_view_grouped(report->active, lit),
                      pm_view_grouped(report->cells, count));
