@@ -134,6 +134,8 @@ static void broken_cells_are_refused(void)
         {CELLS LOWER("0", "0"), "x.csv:2: cells must stand row by row"},
         {CELLS UPPER("0", "0") ROW("1", "1", "1.57", "3.14", "0", "3", "0"),
          "x.csv:4: cells must stand row by row"},
+        {CELLS UPPER("0", "0") ROW("2", "0", "1.57", "3.14", "0", "3", "0"),
+         "x.csv:4: cells must stand row by row"},
         {CELLS UPPER("0", "0") ROW("1", "0", "1.57", "3.14", "0", "3", "0"),
          "x.csv:5: the map before ends in the middle of a row"},
         {CELLS ROW("0", "0", "2", "1", "0", "3", "0"), "x.csv:2: a cell must end behind"},
