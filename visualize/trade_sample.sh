@@ -1,7 +1,8 @@
 #!/bin/sh
 # A small measured trade of speed for accuracy: trade_sample.sh BIN OUT.json [SCENE], from the
 # top folder. Renders the scene (cornell-diffuse) with some settings and three seeds each,
-# compares with a path-traced reference, and writes what `view trade` draws. Half a minute.
+# compares with a path-traced reference, and writes what `view trade` draws; under a minute. One
+# thread renders, so that other work on the machine disturbs the times less.
 #
 # Bias and variance from pictures alone: two runs that differ by their seed only differ by twice
 # the variance; what the error has beyond the variance is bias^2.
@@ -12,7 +13,7 @@ out=$2
 scene=${3:-scenes/cornell-diffuse.xml}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-size=64x64
+size=40x40
 
 # top FILE KEY: a number at the top of a report.
 top() {
@@ -34,7 +35,8 @@ measure() {
     errors=
     for seed in 1 2 3; do
         "$bin/render" "$scene" --size $size --global-photons "$1" -k "$2" --gather "$3" --spp 4 \
-            --seed $seed -o "$work/$seed.exr" --report "$work/$seed.json" >"$work/render.txt"
+            --threads 1 --seed $seed -o "$work/$seed.exr" --report "$work/$seed.json" \
+            >"$work/render.txt"
         times="$times $(seconds "$work/$seed.json")"
         errors="$errors $(rel_mse "$work/$seed.exr" "$work/reference.exr")"
     done
@@ -52,6 +54,11 @@ to_json() {
             m = mean(a, b, c)
             return sqrt(((a - m) ^ 2 + (b - m) ^ 2 + (c - m) ^ 2) / 2)
         }
+        NF != 13 {
+            print "trade_sample: a report has no seconds or no rel_mse: " $0 >"/dev/stderr"
+            failed = 1
+            exit
+        }
         {
             n = NR - 1
             time[n] = mean($4, $5, $6)
@@ -65,6 +72,9 @@ to_json() {
                 time[n], sd($4, $5, $6), error[n], sd($7, $8, $9), bias, variance, $13)
         }
         END {
+            if (failed) {
+                exit 2
+            }
             printf "{\"scene\": \"%s\",\n\"points\": [\n", scene
             for (i = 0; i < NR; i++) {
                 printf "%s%s\n", line[i], i < NR - 1 ? "," : "],"
@@ -86,7 +96,7 @@ to_json() {
         }' "$1"
 }
 
-"$bin/reference" "$scene" --size $size --spp 1024 -o "$work/reference.exr" >"$work/reference.txt"
+"$bin/reference" "$scene" --size $size --spp 512 -o "$work/reference.exr" >"$work/reference.txt"
 while read -r photons k gather; do
     measure "$photons" "$k" "$gather"
 done >"$work/lines" <<END
@@ -97,12 +107,10 @@ done >"$work/lines" <<END
 50000 200 0
 200000 100 0
 200000 400 0
-10000 50 8
-10000 50 32
-50000 100 8
-50000 100 32
-50000 100 128
-200000 100 128
+10000 50 16
+10000 50 64
+50000 100 64
+200000 100 64
 END
 to_json "$work/lines" >"$work/trade.json"
 mv "$work/trade.json" "$out"

@@ -80,7 +80,7 @@ static char *next_line(lines *l)
     return l->text[l->count++];
 }
 
-/// "3  photons 50k, gather 0", and below it "0.41 s, error 0.091, 14 MB".
+/// "3  photons 50k, gather 0", and below it "0.41 s, error 0.0912, 14 MB".
 static void list_point(const pm_trade *trade, int number, lines *l)
 {
     char name[LINE_LETTERS];
@@ -92,7 +92,7 @@ static void list_point(const pm_trade *trade, int number, lines *l)
         return;
     }
     numbers = next_line(l);
-    int used = snprintf(numbers, sizeof l->text[0], "    %.3g s, error %.2g", p->seconds.mean,
+    int used = snprintf(numbers, sizeof l->text[0], "    %.3g s, error %.3g", p->seconds.mean,
                         sqrt(fmax(p->rel_mse.mean, 0.0)));
     if (p->peak_bytes > 0.0) {
         snprintf(numbers + used, sizeof l->text[0] - (size_t)used, ", %.0f MB",
