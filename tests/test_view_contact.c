@@ -171,6 +171,13 @@ static void names_and_reports_are_read(void)
     CHECK(strcmp(json_string_value(about(&s, 0, "note")), "205k photons, gather 64, 4 spp") ==
           0);
     forget(&s);
+    // Of a preset that names stored photons the note tells these, and how they are asked.
+    pm_command_write("my.scene.good.json",
+                     "{\"settings\": {\"gather\": 0, \"spp\": 4, \"stored\": 500000,"
+                     " \"estimate\": {\"k\": 500, \"shape\": \"disc\"}}}");
+    s = look("{S}", path);
+    CHECK(strcmp(json_string_value(about(&s, 0, "note")), "500k stored, k 500, disc") == 0);
+    forget(&s);
 }
 
 static bool overlap(const seen *s, size_t a, size_t b)

@@ -58,8 +58,31 @@ static const json_t *find_setting(const json_t *report, const char *key)
     return there != NULL ? there : json_object_get(report, key);
 }
 
+/// How photons are asked, where a report says how many were to be stored: its picture is about
+/// that.
+static void add_estimate(const line *to, const json_t *settings, json_int_t stored)
+{
+    const json_t *estimate = json_object_get(settings, "estimate");
+    const char *shape = json_string_value(json_object_get(estimate, "shape"));
+    if (stored % 1000 == 0) {
+        add_part(to, "%lldk stored", (long long)stored / 1000);
+    } else {
+        add_part(to, "%lld stored", (long long)stored);
+    }
+    add_part(to, "k %lld", (long long)json_integer_value(json_object_get(estimate, "k")));
+    if (shape != NULL) {
+        add_part(to, "%s", shape);
+    }
+}
+
 static void describe(const json_t *report, const line *to)
 {
+    const json_t *settings = json_object_get(report, "settings");
+    json_int_t stored = json_integer_value(json_object_get(settings, "stored"));
+    if (stored > 0) {
+        add_estimate(to, settings, stored);
+        return;
+    }
     const json_t *gather = find_setting(report, "gather");
     const json_t *spp = find_setting(report, "spp");
     add_photons(to, count_photons(report));
