@@ -5,7 +5,7 @@
 // what a later library does to a rounded corner. So they are compared by blocks: nowhere may a
 // block's mean colour move far, and over the whole picture it must hardly move at all.
 #include <libpng16/png.h>
-#include <webp/decode.h>
+#include <webp/demux.h>
 
 #include <stdint.h>
 #include <stdio.h>
@@ -54,13 +54,41 @@ static int decode_png(const uint8_t *bytes, size_t size, picture *p)
     return p->pixels != NULL && png_image_finish_read(&png, NULL, p->pixels, 0, NULL);
 }
 
+/// The last frame of a film is the one that shows it all; a still picture is a film of one.
+static int decode_webp(const uint8_t *bytes, size_t size, picture *p)
+{
+    WebPData data = {bytes, size};
+    WebPAnimDecoderOptions options;
+    WebPAnimDecoder *decoder =
+        WebPAnimDecoderOptionsInit(&options) ? WebPAnimDecoderNew(&data, &options) : NULL;
+    WebPAnimInfo info;
+    uint8_t *frame = NULL; // RGBA, the decoder's
+    int when = 0;
+    if (decoder == NULL || !WebPAnimDecoderGetInfo(decoder, &info)) {
+        WebPAnimDecoderDelete(decoder);
+        return 0;
+    }
+    while (WebPAnimDecoderHasMoreFrames(decoder) &&
+           WebPAnimDecoderGetNext(decoder, &frame, &when)) {
+    }
+    p->width = (int)info.canvas_width;
+    p->height = (int)info.canvas_height;
+    size_t count = (size_t)p->width * (size_t)p->height;
+    p->pixels = frame != NULL ? malloc(3 * count) : NULL;
+    for (size_t i = 0; i < count && p->pixels != NULL; i++) {
+        memcpy(p->pixels + 3 * i, frame + 4 * i, 3);
+    }
+    WebPAnimDecoderDelete(decoder);
+    return p->pixels != NULL;
+}
+
 static int read_picture(const char *path, picture *p)
 {
     size_t size = 0;
     uint8_t *bytes = read_file(path, &size);
     *p = (picture){0};
     if (bytes != NULL && !decode_png(bytes, size, p)) {
-        p->pixels = WebPDecodeRGB(bytes, size, &p->width, &p->height);
+        decode_webp(bytes, size, p);
     }
     free(bytes);
     if (p->pixels == NULL) {
