@@ -128,6 +128,25 @@ static pm_status add_blocks(pm_view *view, const job *j)
     return law ? pm_figure_legend(view->figure, "in the chart", chart, 3) : PM_OK;
 }
 
+/// Photons that carry less than their light has were aimed; more is a mistake.
+static void note_power(pm_view *view, const job *j)
+{
+    const pm_direction_light *odd = NULL;
+    int count = 0;
+    for (int i = 0; i < j->count; i++) {
+        if (fabs(j->light[i].tally.sent - 1.0) > NEARLY) {
+            odd = &j->light[i];
+            count++;
+        }
+    }
+    if (count == 1) {
+        pm_view_note(view, "; %.3g %% of the power of %s is sent%s", 100.0 * odd->tally.sent,
+                     odd->law.light->id, odd->tally.sent < 1.0 ? " (the rest is dark)" : "");
+    } else if (count > 1) {
+        pm_view_note(view, "; %d of these lights send less or more than their power", count);
+    }
+}
+
 static void write_note(pm_view *view, const job *j)
 {
     uint64_t photons = 0;
@@ -152,13 +171,7 @@ static void write_note(pm_view *view, const job *j)
     if (j->senders > j->count) {
         pm_view_note(view, "; %d of %d lights, --light picks", j->count, j->senders);
     }
-    for (int i = 0; i < j->count; i++) {
-        const pm_direction_light *s = &j->light[i];
-        if (fabs(s->tally.sent - 1.0) > NEARLY) {
-            pm_view_note(view, "; %.3g %% of the power of %s is sent%s", 100.0 * s->tally.sent,
-                         s->law.light->id, s->tally.sent < 1.0 ? " (the rest is dark)" : "");
-        }
-    }
+    note_power(view, j);
 }
 
 static json_t *numbers(const double *values, int count)

@@ -63,6 +63,8 @@ static const char *axis_word(const pm_direction_light *s)
     case PM_LIGHT_POINT:
     case PM_LIGHT_CONSTANT:
         return "z";
+    case PM_LIGHT_DIRECTIONAL:
+        return "its direction";
     default:
         return "axis";
     }
@@ -89,14 +91,17 @@ static pm_status draw_sphere(pm_view *view, const pm_direction_light *s, int pla
         .colours = colours,
         .ring_count = s->law.single ? 0 : RINGS,
         .circle = circles,
-        .circle_count = 5,
+        .circle_count = s->law.single ? 0 : 5,
         .dots = s->dots,
         .count = s->dot_count,
         .light = s->index,
     };
     pm_viewpoint viewpoint = look_at(s, sphere.middle, where);
     PM_TRY(pm_figure_panel(view->figure, where, &viewpoint));
-    return pm_draw_directions(view->figure, &sphere, s->dot_count > 100 ? 4.0 : 6.0);
+    return pm_draw_directions(view->figure, &sphere,
+                              s->law.single        ? 16.0
+                              : s->dot_count > 100 ? 4.0
+                                                   : 6.0);
 }
 
 // --- the chart ---------------------------------------------------------------------------
@@ -179,13 +184,15 @@ pm_status pm_draw_direction_light(pm_view *view, const pm_direction_light *s, in
 {
     char heading[128];
     int gap = (int)pm_figure_pixels_of(view->figure, 14.0);
-    int part = beside ? cell->width * 45 / 100 : cell->height * 55 / 100;
+    int part = beside ? cell->width * 43 / 100 : cell->height * 55 / 100;
     pm_rect sphere = {cell->x, cell->y, beside ? part : cell->width, part};
     pm_rect chart = {cell->x + (beside ? part : 0), cell->y + (beside ? 0 : part + gap),
                      cell->width - (beside ? part : 0),
                      cell->height - gap - (beside ? 0 : part)};
     snprintf(heading, sizeof heading, "%s%s", s->law.light->id,
-             is_enlarged(s) ? " (enlarged)" : "");
+             is_enlarged(s)  ? " (enlarged)"
+             : s->law.turned ? " (about its normals)"
+                             : "");
     PM_TRY(pm_figure_caption(view->figure, &sphere, heading));
     PM_TRY(draw_sphere(view, s, place, &sphere));
     return s->law.single ? write_single(view, s, &chart) : draw_chart(view, s, beside, &chart);

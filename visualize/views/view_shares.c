@@ -100,10 +100,9 @@ static pm_status draw_chart(pm_view *view, const pm_emission_report *report, con
 static void write_note(pm_view *view, const pm_emission_report *report, const choice *c)
 {
     char count[PM_VIEW_GROUPED_MAX];
-    pm_view_note(
-        view, "%s",
-        "two bars as high mean that a light's photons carry as much each as all others "
-        "do on average\n");
+    pm_view_note(view, "%s",
+                 "where both bars are as high, a photon carries the same power whichever light "
+                 "it is from\n");
     pm_view_note(view, "%s photons carry %.4g of %.4g W",
                  pm_view_grouped(report->photons, count), report->sent, report->power);
     if (report->cells > 0) {
