@@ -15,7 +15,8 @@
 #define LINE_MAX_BYTES 4096
 #define ALL_SECONDS 180.0 // of all pictures together
 
-/// In a call, @ stands for the folder.
+/// In a call, @ stands for the folder and % for that of the programs, which begins it unless it
+/// begins with a script.
 static const char *const data[] = {
     "storage " SCENE " --global-photons 641000 --caustic-photons 0 -o @/million.ply"
     " --dump @/million.csv",
@@ -35,6 +36,7 @@ static const char *const data[] = {
     "filtering " SCENE " -n 1000 --at 0.5,-1,0.5 --normal 0,1,0 --curves @/curves.csv",
     "render " SCENE " --size 200x200 --spp 1 --gather 0 --png @/eye.png -o @/picture.exr",
     "reference " SCENE " --size 200x200 --spp 4 -o @/reference.exr",
+    "./visualize/trade_sample.sh % @/trade.json",
 };
 
 typedef struct {
@@ -54,7 +56,7 @@ static const picture pictures[] = {
     {"emission", "emission @/rays.csv --scene " SCENE, 4.0, 500.0},
     {"directions", "directions @/rays.csv --scene " SCENE, 4.0, 500.0},
     {"cells", "cells @/cells.csv --scene " SCENE, 4.0, 500.0},
-    {"shares", "shares @/emission.json --scene " SCENE, 4.0, 500.0},
+    {"shares", "shares @/emission.json", 4.0, 500.0},
     {"paths", "paths @/paths.csv --scene " SCENE, 4.0, 500.0},
     {"growth", "growth @/paths.csv --scene " SCENE " -o @/growth.webp", 30.0, 500.0},
     {"tree", "tree @/tree.ply --scene " SCENE, 4.0, 500.0},
@@ -69,24 +71,29 @@ static const picture pictures[] = {
     {"layers", "layers @/picture.exr", 4.0, 500.0},
     {"error", "error @/picture.exr @/reference.exr", 4.0, 500.0},
     {"effort", "effort @/picture.exr", 4.0, 500.0},
+    {"trade", "trade @/trade.json", 4.0, 500.0},
     {"contact", "contact @/picture.exr @/reference.exr", 4.0, 500.0},
 };
 
-/// Writes `call` with `folder` in place of every @, behind the program's folder.
 static void expand(const char *bin, const char *folder, const char *call, char *line)
 {
-    int used = snprintf(line, LINE_MAX_BYTES, "'%s'/", bin);
+    int used = call[0] == '.' ? 0 : snprintf(line, LINE_MAX_BYTES, "%s/", bin);
     for (const char *c = call; *c != '\0' && used < LINE_MAX_BYTES - 1; c++) {
-        int room = LINE_MAX_BYTES - used;
-        used += *c == '@' ? snprintf(line + used, (size_t)room, "%s", folder)
-                          : snprintf(line + used, (size_t)room, "%c", *c);
+        const char letter[2] = {*c, '\0'};
+        const char *piece = *c == '@' ? folder : *c == '%' ? bin : letter;
+        used += snprintf(line + used, LINE_MAX_BYTES - (size_t)used, "%s", piece);
     }
 }
 
 typedef struct {
-    double seconds, megabytes;
+    double seconds, cpu, megabytes;
     int code;
 } cost;
+
+static double seconds_of(struct timeval t)
+{
+    return (double)t.tv_sec + 1e-6 * (double)t.tv_usec;
+}
 
 /// Runs the line in a process of its own, whose only child it is, so that the memory is its.
 static cost measure(const char *line)
@@ -103,6 +110,7 @@ static cost measure(const char *line)
         cost own = {.code = system(line)};
         own.seconds = pm_seconds_now() - start;
         getrusage(RUSAGE_CHILDREN, &used);
+        own.cpu = seconds_of(used.ru_utime) + seconds_of(used.ru_stime);
         own.megabytes = (double)used.ru_maxrss / 1024.0;
         bool sent = write(ends[1], &own, sizeof own) == (ssize_t)sizeof own;
         _exit(sent ? 0 : 1);
@@ -127,8 +135,8 @@ static bool time_picture(const char *bin, const char *folder, const picture *p, 
     cost c = measure(line);
     *seconds += c.seconds;
     bool kept = c.code == 0 && c.seconds <= p->seconds && c.megabytes <= p->megabytes;
-    printf("%-32s %7.2f s of %4.0f %7.0f MB of %4.0f %s\n", p->what, c.seconds, p->seconds,
-           c.megabytes, p->megabytes,
+    printf("%-32s %6.2f s of %3.0f (cpu %5.2f) %5.0f MB of %3.0f %s\n", p->what, c.seconds,
+           p->seconds, c.cpu, c.megabytes, p->megabytes,
            kept          ? "kept"
            : c.code == 0 ? "MISSED"
                          : "FAILED");
@@ -152,7 +160,7 @@ int main(int argc, char **argv)
         kept = time_picture(bin, folder, &pictures[i], &seconds) && kept;
     }
     bool fast = seconds <= ALL_SECONDS;
-    printf("%-32s %7.2f s of %4.0f %s\n", "all", seconds, ALL_SECONDS,
+    printf("%-32s %6.2f s of %3.0f %s\n", "all", seconds, ALL_SECONDS,
            fast ? "kept" : "MISSED");
     return kept && fast ? 0 : 1;
 }

@@ -39,7 +39,7 @@ static void fill(float (*exact)[3], float (*packed)[3], unsigned count, pm_spher
     for (unsigned i = 0; i < count; i++) {
         patch->there += lies_in(patch, vec_of(exact[i])) ? 1 : 0;
     }
-    int step = (patch->there + PM_SPHERE_PATCH - 1) / PM_SPHERE_PATCH;
+    int step = 1 + (patch->there - 1) / PM_SPHERE_PATCH;
     int met = 0;
     patch->count = 0;
     for (unsigned i = 0; i < count; i++) {

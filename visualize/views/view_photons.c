@@ -212,8 +212,8 @@ static void write_note(pm_view *view, const clouds *all, pm_by by)
             "hits)",
         [PM_BY_MAP] = "every dot is a photon; what came over mirror or glass alone is stored "
                       "in the caustic map, too",
-        [PM_BY_BOUNCE] =
-            "every dot is a photon, coloured by how often it was turned before it landed",
+        [PM_BY_BOUNCE] = "every dot is a photon, coloured by how often it was reflected or let "
+                         "through before it landed",
         [PM_BY_LIGHT] = "every dot is a photon, in the colour of the light it comes from",
     };
     pm_view_note(view, "%s\n", lines[by]);
