@@ -1,11 +1,11 @@
-// Rows arrive as j, i = (0, 0), (0, 1) ... ; the first return to i = 0 fixes the grid's width.
+// Contracts are in the header.
 #include "grid_file.h"
 
-#include "csv.h"
+#include "grid_order.h"
 
 #include <stdlib.h>
 
-enum { I, J, X, Y, Z, NX, NY, NZ, RED, GREEN, BLUE, RADIUS, FOUND };
+enum { X = 2, Y, Z, NX, NY, NZ, RED, GREEN, BLUE, RADIUS, FOUND };
 
 static pm_status grow(pm_grid_point **points, uint64_t count, uint64_t *room)
 {
@@ -21,28 +21,6 @@ static pm_status grow(pm_grid_point **points, uint64_t count, uint64_t *room)
     }
     *points = bigger;
     *room = wanted;
-    return PM_OK;
-}
-
-/// Refuses a point that is not number `count` of a grid with `columns` (0: still in its first
-/// row).
-static pm_status check_order(const pm_csv *csv, uint64_t count, uint64_t *columns)
-{
-    uint64_t i = 0;
-    uint64_t j = 0;
-    PM_TRY(pm_csv_count(csv, I, UINT32_MAX, &i));
-    PM_TRY(pm_csv_count(csv, J, UINT32_MAX, &j));
-    if (*columns == 0 && i == 0 && j == 1) {
-        *columns = count;
-    }
-    uint64_t want_i = *columns == 0 ? count : count % *columns;
-    uint64_t want_j = *columns == 0 ? 0 : count / *columns;
-    if (i != want_i || j != want_j) {
-        return pm_status_fail(
-            PM_EINPUT, "%s:%ld: the next grid point is i,j = %llu,%llu, got %llu,%llu",
-            csv->path, csv->line, (unsigned long long)want_i, (unsigned long long)want_j,
-            (unsigned long long)i, (unsigned long long)j);
-    }
     return PM_OK;
 }
 
@@ -67,18 +45,11 @@ static pm_status read_points(pm_csv *csv, const pm_scene *scene, pm_grid *grid)
         if (!more) {
             break;
         }
-        PM_TRY(check_order(csv, count, &grid->columns));
+        PM_TRY(pm_grid_order_check(csv, count, &grid->columns));
         PM_TRY(grow(&grid->points, count, &room));
         PM_TRY(read_point(csv, scene, &grid->points[count]));
     }
-    if (grid->columns < 2 || count % grid->columns != 0) {
-        return pm_status_fail(PM_EINPUT,
-                              "%s:%ld: a grid has at least 2 x 2 points and its last row "
-                              "complete; the file ends after point %llu",
-                              csv->path, csv->line, (unsigned long long)count);
-    }
-    grid->rows = count / grid->columns;
-    return PM_OK;
+    return pm_grid_order_end(csv, count, grid->columns, &grid->rows);
 }
 
 pm_status pm_grid_file_read(const char *path, const pm_scene *scene, pm_grid *grid)

@@ -221,8 +221,8 @@ static void write_note(pm_view *view, const job *j)
         pm_vec_sub(corner(&j->grid, true, false), corner(&j->grid, false, false)));
     pm_view_note(
         view,
-        "a disc that reaches over an edge smears it; where near photons count more, it "
-        "is smeared less\n%llu x %llu points on %.3g m%s",
+        "a disc that reaches over an edge smears it, less so where near photons count more; "
+        "the photons are the same\n%llu x %llu points on %.3g m%s",
         (unsigned long long)j->grid.columns, (unsigned long long)j->grid.rows, across,
         j->finer.points != NULL ? "; nearly true: many more photons, in smaller discs" : "");
 }
