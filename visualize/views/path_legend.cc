@@ -27,7 +27,7 @@ struct entry_list {
 std::string bounce_words(int bounces)
 {
     if (bounces == 0) {
-        return "straight from the light";
+        return "from the light";
     }
     std::string number = std::to_string(bounces);
     return bounces == 1                     ? "after 1 bounce"

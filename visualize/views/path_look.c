@@ -3,14 +3,10 @@
 #include "path_look.h"
 
 static const pm_path_look looks[PM_PATH_EVENTS] = {
-    {'L', PM_COLOUR_YELLOW, "leaves the light"},
-    {'D', PM_COLOUR_ORANGE, "diffuse bounce"},
-    {'S', PM_COLOUR_SKY, "specular: mirrored"},
-    {'T', PM_COLOUR_GREEN, "transmitted: glass"},
-    {'V', PM_COLOUR_BLUE, "scattered in a medium"},
-    {'A', PM_COLOUR_PURPLE, "absorbed"},
-    {'E', PM_COLOUR_GREY, "escaped (line fades)"},
-    {'C', PM_COLOUR_VERMILLION, "cut: too many bounces"},
+    {'L', PM_COLOUR_YELLOW, "leaves the light"}, {'D', PM_COLOUR_ORANGE, "diffuse bounce"},
+    {'S', PM_COLOUR_SKY, "specular: mirrored"},  {'T', PM_COLOUR_GREEN, "transmitted: glass"},
+    {'V', PM_COLOUR_BLUE, "medium: scattered"},  {'A', PM_COLOUR_PURPLE, "absorbed"},
+    {'E', PM_COLOUR_GREY, "escaped (fades)"},    {'C', PM_COLOUR_VERMILLION, "cut by the cap"},
 };
 
 const pm_path_look *pm_path_look_at(int index)
