@@ -168,6 +168,13 @@ void pm_figure_scenery(pm_figure *figure, const pm_scene *scene, vtkProp *prop)
     figure->scene = scene;
 }
 
+void pm_figure_facing(pm_figure *figure, vtkActor *actor, const pm_drawn_for &draw)
+{
+    figure->renderer->AddActor(actor);
+    figure->scenery.push_back(actor);
+    figure->facing.push_back({actor, draw, figure->renderer});
+}
+
 pm_status pm_figure_open(const pm_viewpoint *viewpoint, pm_figure **figure)
 {
     return pm_figure_guard("a figure", [&] {

@@ -5,6 +5,7 @@
 #include "core.hh"
 #include "figure.h"
 
+#include <vtkActor.h>
 #include <vtkPolyData.h>
 #include <vtkProp.h>
 #include <vtkRenderWindow.h>
@@ -13,6 +14,7 @@
 #include <vtkTextActor.h>
 
 #include <exception>
+#include <functional>
 #include <memory>
 #include <new>
 #include <stdexcept>
@@ -51,6 +53,15 @@ struct pm_dataset {
     vtkSmartPointer<vtkRenderer> renderer; // of the panel that shows it
 };
 
+/// What depends on where it is seen from, as a ball's outline does: drawn anew for another eye
+/// (centred), and with nothing to draw it is empty.
+using pm_drawn_for = std::function<vtkSmartPointer<vtkPolyData>(pm_vec3 eye)>;
+struct pm_facing {
+    vtkSmartPointer<vtkActor> actor;
+    pm_drawn_for draw;
+    vtkSmartPointer<vtkRenderer> renderer;
+};
+
 /// A word at a point of a panel's scene.
 struct pm_drawn_mark {
     vtkSmartPointer<vtkTextActor> words;
@@ -74,6 +85,7 @@ struct pm_figure {
     std::vector<pm_dataset> datasets;
     std::vector<pm_drawn_mark> marks;
     std::vector<vtkSmartPointer<vtkProp>> scenery; // the scene, drawn faintly
+    std::vector<pm_facing> facing;
     const pm_scene *scene; // of the scenery, or NULL; it outlives the figure
 
     /// A length in pixels that is `at900` in a picture 900 pixels high.
@@ -98,6 +110,9 @@ void pm_figure_keep(pm_figure *figure, const char *name, vtkPolyData *data);
 
 /// Puts the scene's own surfaces and edges in the current panel.
 void pm_figure_scenery(pm_figure *figure, const pm_scene *scene, vtkProp *prop);
+
+/// The same for what looks different from elsewhere; `actor` shows it as it is seen now.
+void pm_figure_facing(pm_figure *figure, vtkActor *actor, const pm_drawn_for &draw);
 
 /// VTK's messages go to a listener of ours: forgets what it heard, or returns the first line of
 /// the first error since, "" when there was none.

@@ -1,10 +1,12 @@
 // What stands on a page is told by its type: letters, drawings in pixels, pictures, charts.
 #include "page_layout.hh"
 
+#include <vtkCamera.h>
 #include <vtkContextActor.h>
 #include <vtkContextScene.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
+#include <vtkPolyDataMapper.h>
 #include <vtkPolyDataMapper2D.h>
 #include <vtkPropCollection.h>
 #include <vtkTextProperty.h>
@@ -123,5 +125,13 @@ void pm_page_layout::follow()
         bool seen = pm_page_place(mark.renderer, mark.at, at);
         mark.words->SetPosition(at[0], at[1]);
         mark.words->SetVisibility(static_cast<int>(seen && marks_shown));
+    }
+    for (const pm_facing &facing : figure->facing) {
+        double eye[3];
+        facing.renderer->GetActiveCamera()->GetPosition(eye);
+        auto *mapper = vtkPolyDataMapper::SafeDownCast(facing.actor->GetMapper());
+        if (mapper != nullptr) {
+            mapper->SetInputData(facing.draw(pm_vec(eye[0], eye[1], eye[2])));
+        }
     }
 }

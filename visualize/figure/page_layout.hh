@@ -25,7 +25,8 @@ class pm_page_layout {
     /// the smaller of the two, so that nothing overlaps that did not before.
     void resize();
 
-    /// Words at points of a scene go where their point is seen, or hide.
+    /// Words at points of a scene go where their point is seen, or hide; balls keep their
+    /// outlines.
     void follow();
 
     bool marks_shown = true;

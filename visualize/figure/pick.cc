@@ -10,6 +10,7 @@
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkStringArray.h>
 
 #include <cmath>
 #include <cstdio>
@@ -161,10 +162,44 @@ std::string number(double value)
     return text;
 }
 
+/// "event (L 0, D 1)" tells what its numbers are called; the word of one of them, or "".
+std::string word_for(const std::string &name, double value)
+{
+    size_t at = name.find(" (");
+    char number_text[32];
+    std::snprintf(number_text, sizeof number_text, " %.0f", value);
+    while (at != std::string::npos && name.back() == ')') {
+        size_t from = at + 2;
+        size_t end = name.find_first_of(",)", from);
+        std::string entry = name.substr(from, end - from);
+        size_t blank = entry.rfind(' ');
+        if (blank != std::string::npos && entry.substr(blank) == number_text) {
+            return entry.substr(0, blank);
+        }
+        at = name[end] == ',' ? end : std::string::npos;
+    }
+    return "";
+}
+
+/// The word for a number of the array "map" in the list "map names", or "".
+std::string listed_word(vtkPolyData *data, const std::string &name, double value)
+{
+    auto *names = vtkStringArray::SafeDownCast(
+        data->GetFieldData()->GetAbstractArray((name + " names").c_str()));
+    vtkIdType index = static_cast<vtkIdType>(value);
+    bool listed = names != nullptr && index >= 0 && index < names->GetNumberOfValues();
+    return listed ? names->GetValue(index) : "";
+}
+
 /// "power [W]" and its values as "power 1 2 3 W".
-std::string tell_array(vtkDataArray *array, vtkIdType id)
+std::string tell_array(vtkPolyData *data, vtkDataArray *array, vtkIdType id)
 {
     std::string name = array->GetName();
+    double first = array->GetComponent(id, 0);
+    std::string word = word_for(name, first) + listed_word(data, name, first);
+    if (!word.empty()) {
+        return ", " + name.substr(0, name.find(" (")) + " " + word;
+    }
     size_t open = name.find(" [");
     bool unit = open != std::string::npos && name.back() == ']';
     std::string text = ", " + name.substr(0, unit ? open : name.size());
@@ -175,7 +210,7 @@ std::string tell_array(vtkDataArray *array, vtkIdType id)
 }
 
 /// All but colours, which are seen.
-std::string tell_arrays(vtkFieldData *fields, vtkIdType id)
+std::string tell_arrays(vtkPolyData *data, vtkFieldData *fields, vtkIdType id)
 {
     std::string text;
     for (int i = 0; i < fields->GetNumberOfArrays(); i++) {
@@ -183,7 +218,7 @@ std::string tell_arrays(vtkFieldData *fields, vtkIdType id)
         bool named = array != nullptr && array->GetName() != nullptr &&
                      std::string(array->GetName()) != "colour";
         if (named && id < array->GetNumberOfTuples()) {
-            text += tell_array(array, id);
+            text += tell_array(data, array, id);
         }
     }
     return text;
@@ -202,8 +237,8 @@ std::string tell(const candidate &best, pm_vec3 center)
     std::string text = best.dataset->name + " " + std::to_string(dot ? best.point : best.cell) +
                        ":" + tell_place(best.at, center);
     bool of_cells = data->GetCellData()->GetNumberOfArrays() > 0;
-    return text + (of_cells ? tell_arrays(data->GetCellData(), best.cell) : "") +
-           tell_arrays(data->GetPointData(), best.point);
+    return text + (of_cells ? tell_arrays(data, data->GetCellData(), best.cell) : "") +
+           tell_arrays(data, data->GetPointData(), best.point);
 }
 
 std::string triple(pm_vec3 v)

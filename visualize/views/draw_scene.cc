@@ -103,7 +103,7 @@ pm_vec3 draw_cylinder(pm_drawing *drawing, const pm_shape *s, const look &l)
 }
 
 /// The sphere as it is seen: its outline, filled. From inside, only three great circles.
-pm_vec3 draw_sphere(pm_drawing *drawing, const pm_shape *s, const look &l, pm_vec3 eye)
+void draw_sphere(pm_drawing *drawing, const pm_shape *s, const look &l, pm_vec3 eye)
 {
     pm_vec3 to = pm_vec_sub(eye, s->center);
     double distance = pm_vec_length(to);
@@ -119,7 +119,6 @@ pm_vec3 draw_sphere(pm_drawing *drawing, const pm_shape *s, const look &l, pm_ve
     for (const pm_vec3 &axis : axes) {
         drawing->outline(circle(s->center, axis, s->radius), l.edge, 0.35 * edge_opacity);
     }
-    return s->center;
 }
 
 pm_vec3 triangle_normal(const pm_shape *s, uint32_t index)
@@ -202,14 +201,14 @@ pm_vec3 place_word(const pm_shape *shape, const look &l, pm_vec3 middle)
     return hollow ? shape->vertices[0] : middle;
 }
 
-/// Draws a shape; returns its middle.
-pm_vec3 draw_shape(pm_drawing *drawing, const pm_shape *shape, const look &l, pm_vec3 eye)
+/// Draws a shape, but a sphere, which looks different for every eye; returns its middle.
+pm_vec3 draw_shape(pm_drawing *drawing, const pm_shape *shape, const look &l)
 {
     switch (shape->type) {
     case PM_SHAPE_RECTANGLE:
         return draw_rectangle(drawing, shape, l);
     case PM_SHAPE_SPHERE:
-        return draw_sphere(drawing, shape, l, eye);
+        return shape->center;
     case PM_SHAPE_DISK:
         return draw_disk(drawing, shape, l);
     case PM_SHAPE_CYLINDER:
@@ -220,12 +219,35 @@ pm_vec3 draw_shape(pm_drawing *drawing, const pm_shape *shape, const look &l, pm
     return draw_mesh(drawing, shape, l);
 }
 
+void draw_spheres(pm_drawing *drawing, const pm_scene *scene, pm_vec3 eye)
+{
+    for (int i = 0; i < scene->shape_count; i++) {
+        const pm_shape *shape = &scene->shapes[i];
+        if (shape->type == PM_SHAPE_SPHERE) {
+            draw_sphere(drawing, shape, look_of(scene, shape), eye);
+        }
+    }
+}
+
+/// The scene outlives the figure, so it can be asked again.
+void add_spheres(pm_figure *figure, const pm_scene *scene)
+{
+    pm_drawing drawing;
+    draw_spheres(&drawing, scene, figure->viewpoint.position);
+    pm_figure_facing(figure, drawing.actor(figure->pixels(1.2), 1.0, 4.0),
+                     [scene](pm_vec3 eye) {
+                         pm_drawing again;
+                         draw_spheres(&again, scene, eye);
+                         return again.data();
+                     });
+}
+
 pm_status draw_all(pm_figure *figure, const pm_scene *scene, bool with_words)
 {
     pm_drawing drawing;
     for (int i = 0; i < scene->shape_count; i++) {
         look l = look_of(scene, &scene->shapes[i]);
-        pm_vec3 middle = draw_shape(&drawing, &scene->shapes[i], l, figure->viewpoint.position);
+        pm_vec3 middle = draw_shape(&drawing, &scene->shapes[i], l);
         if (with_words && l.word != nullptr) {
             pm_vec3 place = place_word(&scene->shapes[i], l, middle);
             PM_TRY(pm_figure_mark(figure, place, l.word));
@@ -238,6 +260,7 @@ pm_status draw_all(pm_figure *figure, const pm_scene *scene, bool with_words)
         }
     }
     pm_figure_scenery(figure, scene, drawing.actor(figure->pixels(1.2), 1.0, 4.0));
+    add_spheres(figure, scene);
     return PM_OK;
 }
 
