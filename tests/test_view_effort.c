@@ -116,16 +116,21 @@ static void finding_nothing_is_an_estimate(void)
     pm_seen_free(&s);
 }
 
-static void one_value_has_no_scale(void)
+// As with -r and a large k. A mean of equal radii may be off by the last bit.
+static void one_radius_has_no_scale(void)
 {
+    int x = 0;
+    int y = 0;
     pm_image image = make_picture();
     for (int i = WIDE; i < WIDE * HIGH; i++) {
-        image.plane[4][i] = 50.0F;
+        image.plane[3][i] = i % 2 == 0 ? 0.25F : nextafterf(0.25F, 1.0F);
     }
     pm_seen s = look(write_picture("a.exr", &image));
     CHECK(json_array_size(pm_seen_member(&s, "scales")) == 1);
-    CHECK_CONTAINS(pm_seen_text(&s, "note"), "photons 50 to 50, mean 50.");
-    CHECK_COLOUR(pixel(&s, 1, 2, 2), 252.0, 255.0, 164.0, 0.0); // inferno's bright end
+    CHECK_CONTAINS(pm_seen_text(&s, "note"), "radius 0.25 to 0.25 m, mean 0.25 m");
+    CHECK_COLOUR(pixel(&s, 0, 2, 2), 253.0, 231.0, 37.0, 0.0); // viridis' bright end
+    pm_seen_chart(&s, 0, 10.0 + 60.0 / 64.0, 10.0, &x, &y);    // ten pixels of 10 photons
+    CHECK(pm_seen_near(&s, x, y, 2, (const uint8_t[3]){86, 180, 233}, 60));
     pm_seen_free(&s);
 }
 
@@ -157,6 +162,7 @@ PM_TESTS({"view_effort.1",
           pixels_have_the_scales_colours},
          {"view_effort.2", "a pixel that found no photon is dark; a wide range is logarithmic",
           finding_nothing_is_an_estimate},
-         {"view_effort.3", "one value everywhere needs no scale", one_value_has_no_scale},
+         {"view_effort.3", "one radius everywhere needs no scale, and the chart counts photons",
+          one_radius_has_no_scale},
          {"view_effort.4", "a picture without radii, or with none above 0, is refused",
           what_has_no_effort_is_refused})

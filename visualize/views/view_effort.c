@@ -14,6 +14,7 @@
 
 #define BINS 32
 
+static const double alike = 1e-6;           // of a value: means of equal floats
 static const double logarithmic_from = 8.0; // ratio of largest to smallest
 static const pm_colour without = {84, 88, 98};
 
@@ -23,6 +24,8 @@ typedef struct {
     const char *what; // for --json
     const char *caption;
     const char *heading; // of its scale, with the unit
+    const char *chart;   // its heading
+    const char *axis;
     pm_colour (*colour)(double position);
     double low, high, mean; // over the pixels with an estimate
     bool logarithmic;
@@ -72,6 +75,7 @@ static void measure(const effort *e, heat *map)
         }
     }
     map->mean = sum / (double)e->count;
+    map->high = map->high - map->low > alike * map->high ? map->high : map->low;
     map->logarithmic = map->low > 0.0 && map->high > logarithmic_from * map->low;
 }
 
@@ -81,10 +85,14 @@ static pm_status read_effort(const pm_view *view, effort *e)
     e->map[0] = (heat){.what = "radius",
                        .caption = "how far it reached: the radius",
                        .heading = "radius of an\nestimate [m]",
+                       .chart = "pixels by their radius",
+                       .axis = "radius [m]",
                        .colour = pm_colour_viridis};
     e->map[1] = (heat){.what = "count",
                        .caption = "how many photons it found: k",
                        .heading = "photons of an\nestimate",
+                       .chart = "pixels by their photons",
+                       .axis = "photons",
                        .colour = pm_colour_inferno};
     PM_TRY(pm_view_read_picture(path, &e->image));
     PM_TRY(find_channel(path, &e->image, "gather.radius", &e->map[0].value));
@@ -192,10 +200,10 @@ static pm_status draw_map(pm_view *view, const effort *e, int which, const place
     return explain(view->figure, map);
 }
 
-/// How many pixels have which radius, in equal steps of the scale.
-static void sort_into_bins(const effort *e, double edge[BINS + 1], double pixels[BINS + 1])
+/// How many pixels have which value, in equal steps of the scale.
+static void sort_into_bins(const effort *e, const heat *map, double edge[BINS + 1],
+                           double pixels[BINS + 1])
 {
-    const heat *map = &e->map[0];
     for (int b = 0; b <= BINS; b++) {
         double t = (double)b / BINS;
         edge[b] = map->logarithmic ? map->low * pow(map->high / map->low, t)
@@ -204,25 +212,26 @@ static void sort_into_bins(const effort *e, double edge[BINS + 1], double pixels
     }
     for (size_t i = 0; i < pixels_of(e); i++) {
         if (e->radius[i] > 0.0F) {
-            int bin = (int)(BINS * position(map, (double)e->radius[i]));
+            int bin = (int)(BINS * position(map, (double)map->value[i]));
             pixels[bin < BINS ? bin : BINS - 1] += 1.0;
         }
     }
+    pixels[BINS] = pixels[BINS - 1]; // the last step's right end
 }
 
+/// Of the radii, or where all are alike of the photons.
 static pm_status draw_chart(pm_view *view, const effort *e, const places *at)
 {
     double edge[BINS + 1];
     double pixels[BINS + 1];
     pm_chart *chart;
-    const heat *map = &e->map[0];
+    const heat *map = &e->map[e->map[0].high > e->map[0].low ? 0 : 1];
     if (map->high <= map->low) {
         return PM_OK;
     }
-    sort_into_bins(e, edge, pixels);
-    pixels[BINS] = pixels[BINS - 1]; // the last step's right end
-    const pm_chart_axes axes = {.heading = "pixels by their radius",
-                                .x_title = "radius [m]",
+    sort_into_bins(e, map, edge, pixels);
+    const pm_chart_axes axes = {.heading = map->chart,
+                                .x_title = map->axis,
                                 .y_title = "pixels",
                                 .x_log = map->logarithmic,
                                 .x_low = map->low,
