@@ -91,7 +91,7 @@ static void three_grids_share_a_scale(void)
     const char *disc = write_grid("disc.csv", 1.0, 2.0);
     snprintf(three, sizeof three, "view bias %s %s {S} --scene {O} --size 640x480", sphere,
              disc);
-    pm_seen s = look(three, write_grid("small-k.csv", 1.4, 2.0));
+    pm_seen s = look(three, write_grid("small-k.csv", 1.4, 2.6));
     CHECK(json_array_size(pm_seen_member(&s, "panels")) == 3);
     CHECK(json_array_size(pm_seen_member(&s, "charts")) == 3);
     CHECK(json_array_size(pm_seen_member(&s, "scales")) == 1);
@@ -117,10 +117,10 @@ static void shares_of_a_disc_are_areas(void)
     CHECK(pm_grid_bias_sphere(7.0) == 1.0);
 }
 
-static void refuse(const char *words, const char *file, const char *part)
+static void refuse(const char *command, const char *file, const char *part)
 {
-    pm_test_ran ran = pm_command_run(words, file, pm_room_scene());
-    pm_command_check_refusal(words, &ran, part);
+    pm_test_ran ran = pm_command_run(command, file, pm_room_scene());
+    pm_command_check_refusal(command, &ran, part);
     pm_test_ran_free(&ran);
 }
 

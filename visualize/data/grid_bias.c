@@ -33,7 +33,7 @@ pm_status pm_grid_bias_truth(const pm_grid *const *grids, int count, double *tru
     for (int g = 0; g < count; g++) {
         room += grids[g]->columns * grids[g]->rows;
     }
-    double *values = malloc((size_t)room * sizeof *values);
+    double *values = malloc((size_t)(room > 0 ? room : 1) * sizeof *values);
     if (values == NULL) {
         return PM_FAIL(PM_ENOMEM, "%s", "no memory for a median");
     }
