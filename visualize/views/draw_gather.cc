@@ -124,7 +124,7 @@ pm_status add_measures(pm_figure *figure, const pm_gathered *g)
     }
     measures.dot(g->at, white, 1.0);
     figure->renderer->AddActor(measures.actor(figure->pixels(2.0), figure->pixels(7.0)));
-    PM_TRY(pm_figure_mark(figure, pm_vec_along(neck, right, 0.26 * g->radius), "normal"));
+    PM_TRY(pm_figure_mark(figure, pm_vec_along(end, g->normal, 0.12 * g->radius), "normal"));
     return pm_figure_mark(figure, pm_vec_along(g->at, right, 1.09 * g->radius), "r");
 }
 

@@ -12,7 +12,7 @@
 
 #define FILES_MOST 2
 
-static const double around = 0.85;   // half side of what is shown, in radii
+static const double around = 0.98;   // half side of what is shown, in radii
 static const double height = 0.47;   // sine of the angle from which a surface is looked at
 static const double beside = 1.1;    // how far the eye turns to face a wall nearby
 static const double tallest = 1.25;  // height over width of a panel
