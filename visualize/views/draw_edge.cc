@@ -72,7 +72,9 @@ pm_status pm_draw_edge(pm_figure *figure, const pm_edge_grid *grid, int kernel,
         line.line(pm_vec_along(from, figure->viewpoint.forward, up),
                   pm_vec_along(to, figure->viewpoint.forward, up),
                   pm_colour_named(PM_COLOUR_SKY), 1.0);
-        figure->renderer->AddActor(line.actor(figure->pixels(1.6), 1.0));
+        vtkSmartPointer<vtkActor> actor = line.actor(figure->pixels(2.4), 1.0);
+        actor->ForceOpaqueOn();
+        figure->renderer->AddActor(actor);
         return PM_OK;
     });
 }
