@@ -2,7 +2,9 @@
 // photon is, counts are compared with the tables and with storage's own report.
 #include "command.h"
 #include "photon_classes.h"
+#include "photon_table.h"
 #include "room.h"
+#include "scene_read.h"
 #include "seen.h"
 
 #include <stdio.h>
@@ -124,9 +126,15 @@ static void broken_tables_are_refused(void)
         {HEADER "900,5,5,0,0,-1,1,1,1,global,LD,0,0\n", "p.csv:2: the point 900,5,5 lies far"},
         {HEADER "5,5,5,0,0,-1,1,1,1,global,LD,0,0", "p.csv:2: the file ends in the middle"},
     };
+    pm_scene scene;
+    pm_photon_cloud clouds[PM_MAP_COUNT];
+    CHECK_OK(pm_scene_read(pm_room_scene(), NULL, 0, false, &scene));
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
-        check_refused(pm_command_write("p.csv", bad[i].text), "", bad[i].part);
+        const char *csv = pm_command_write("p.csv", bad[i].text);
+        CHECK_FAILS(pm_photon_table_read(csv, &scene, clouds), PM_EINPUT, bad[i].part);
     }
+    pm_scene_free(&scene);
+    check_refused(pm_command_write("p.csv", bad[1].text), "", bad[1].part);
 }
 
 static void files_without_the_answer_are_refused(void)

@@ -1,6 +1,7 @@
 // What pictures cost: views BIN FOLDER, from the top folder. The data are made first and not
-// timed; then every kind of picture is made once, on the wall clock of two cores, with the most
-// memory it held. A million photons have bounds of their own.
+// timed; then every kind of picture is made once. Promises are about the wall clock of a
+// machine with two cores and nothing else to do; processor time is told beside it. A million
+// photons have bounds of their own.
 #include "clock.h"
 
 #include <stdbool.h>

@@ -219,11 +219,11 @@ static void write_note(pm_view *view, const clouds *all, pm_by by)
     pm_view_note(view, "%s\n", lines[by]);
     for (int i = 0; i < all->count; i++) {
         char stored[PM_VIEW_GROUPED_MAX];
-        char emitted[PM_VIEW_GROUPED_MAX];
         const pm_photon_cloud *cloud = &all->cloud[i];
         pm_view_note(view, "%s%s map: %s stored", i > 0 ? "   |   " : "", cloud->name,
                      pm_view_grouped(cloud->count, stored));
         if (cloud->emitted > 0) {
+            char emitted[PM_VIEW_GROUPED_MAX];
             pm_view_note(view, " of %s emitted", pm_view_grouped(cloud->emitted, emitted));
         }
     }
