@@ -37,7 +37,7 @@ static bool is_installed(const char *program)
     return access(path, X_OK) == 0;
 }
 
-static pid_t start_server(int told)
+static pid_t start_server(int told, bool opengl)
 {
     char number[16];
     snprintf(number, sizeof number, "%d", told);
@@ -45,7 +45,8 @@ static pid_t start_server(int told)
     if (pid == 0) {
         freopen("/dev/null", "w", stderr); // it tells every display that it finds taken
         execl("/usr/bin/Xvfb", "Xvfb", "-displayfd", number, "-noreset", "-nolisten", "tcp",
-              "-screen", "0", "1000x800x24", (char *)NULL);
+              "-screen", "0", "1000x800x24", opengl ? "+extension" : "-extension", "GLX",
+              (char *)NULL);
         _exit(127);
     }
     CHECK(pid > 0);
@@ -63,7 +64,7 @@ static void read_display(int told, char *display, size_t room)
     CHECK_THAT(used > 1, "Xvfb did not start");
 }
 
-pm_screen pm_screen_open(void)
+pm_screen pm_screen_open(bool opengl)
 {
     if (!is_installed("Xvfb")) {
         pm_test_skip("Xvfb is missing", "xvfb");
@@ -75,7 +76,7 @@ pm_screen pm_screen_open(void)
     char display[32];
     CHECK(pipe(ends) == 0);
     fcntl(ends[0], F_SETFD, FD_CLOEXEC);
-    pm_screen screen = {.server = start_server(ends[1])};
+    pm_screen screen = {.server = start_server(ends[1], opengl)};
     close(ends[1]);
     read_display(ends[0], display, sizeof display);
     close(ends[0]);

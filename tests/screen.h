@@ -13,8 +13,9 @@ typedef struct {
     const char *complained;
 } pm_screen;
 
-/// Starts a display of 1000 x 800 and makes it DISPLAY. Close it with pm_screen_close().
-pm_screen pm_screen_open(void);
+/// Starts a display of 1000 x 800, with OpenGL or without, and makes it DISPLAY. Close it with
+/// pm_screen_close().
+pm_screen pm_screen_open(bool opengl);
 
 /// Starts a view of photons, words as in pm_command_run(), in the test's folder, and waits
 /// for its window.

@@ -44,6 +44,12 @@ static void no_display_is_told(void)
     check_refusal("--interactive", ":7654", "and no display answers at \":7654\"; -o FILE");
     check_refusal("--display x", NULL, "--display x needs an X display, and DISPLAY is not");
     check_refusal("--display x", "nonsense", "no display answers at \"nonsense\"");
+    pm_screen flat = pm_screen_open(false);
+    char name[32];
+    snprintf(name, sizeof name, "%s", getenv("DISPLAY"));
+    check_refusal("--interactive", name, "needs an X display with OpenGL, and \"");
+    check_refusal("--display x", name, "has no GLX; without --display pictures need none");
+    pm_screen_close(&flat);
     check_refusal("--interactive --json", NULL, "--json and --interactive cannot be together");
 }
 
@@ -64,7 +70,7 @@ static void display_makes_no_difference(void)
     const char *file = map();
     const char *scene = pm_room_scene();
     pm_seen without = pm_seen_look(LINE, file, scene);
-    pm_screen screen = pm_screen_open();
+    pm_screen screen = pm_screen_open(true);
     char line[256];
     snprintf(line, sizeof line, LINE "--display x -o %s", pm_command_path("x.png"));
     pm_test_ran ran = pm_command_run(line, file, scene);
@@ -121,7 +127,7 @@ static void drag_turns_the_scene(void)
     int x;
     int middle;
     pm_seen_place(&still, 0, pm_vec(5.0, 5.08, 5.0), &x, &middle);
-    pm_screen screen = pm_screen_open();
+    pm_screen screen = pm_screen_open(true);
     pm_command_write("view-001.png", "not ours\n");
     pm_screen_start(&screen, LINE "--interactive", file, scene);
     pm_seen first = save(&screen, "view-002.png");
@@ -157,7 +163,7 @@ static void click_tells_what_is_there(void)
     const char *file = map();
     const char *scene = pm_room_scene();
     pm_seen still = pm_seen_look(LINE, file, scene);
-    pm_screen screen = pm_screen_open();
+    pm_screen screen = pm_screen_open(true);
     pm_screen_start(&screen, LINE "--interactive", file, scene);
     for (int i = 0; i < 2; i++) {
         char part[96];
@@ -187,7 +193,7 @@ static void click_tells_what_is_there(void)
 static void interrupt_closes_the_window(void)
 {
     const char *file = map();
-    pm_screen screen = pm_screen_open();
+    pm_screen screen = pm_screen_open(true);
     pm_screen_start(&screen, LINE "--interactive", file, pm_room_scene());
     kill(screen.program, SIGINT);
     int code = pm_screen_end(&screen);

@@ -5,12 +5,12 @@
 #include "window.hh"
 
 #include "window.h"
+#include "x_display.hh"
 
 #include <vtkVersion.h>
 #include <vtkVersionMacros.h>
 
 #include <cstdlib>
-#include <dlfcn.h>
 
 #if VTK_VERSION_NUMBER < VTK_VERSION_CHECK(9, 4, 0)
 #include <EGL/egl.h>
@@ -135,27 +135,6 @@ vtkSmartPointer<vtkRenderWindow> open_without_display()
 
 namespace {
 
-/// Does the X display of the environment answer? Asked through libX11 at run time, so that a
-/// system without X needs none of it.
-bool x_answers()
-{
-    if (getenv("DISPLAY") == nullptr) {
-        return false;
-    }
-    void *library = dlopen("libX11.so.6", RTLD_NOW | RTLD_LOCAL);
-    if (library == nullptr) {
-        return false;
-    }
-    auto open = reinterpret_cast<void *(*)(const char *)>(dlsym(library, "XOpenDisplay"));
-    auto close = reinterpret_cast<int (*)(void *)>(dlsym(library, "XCloseDisplay"));
-    void *display = open != nullptr && close != nullptr ? open(nullptr) : nullptr;
-    if (display != nullptr) {
-        close(display);
-    }
-    dlclose(library);
-    return display != nullptr;
-}
-
 bool on_x_display = false; // chosen once, before the first window
 
 } // namespace
@@ -163,22 +142,37 @@ bool on_x_display = false; // chosen once, before the first window
 pm_status pm_window_choose(bool x_display, bool interactive)
 {
     on_x_display = x_display || interactive;
-    if (!on_x_display || x_answers()) {
+    if (!on_x_display) {
         return PM_OK;
     }
-    const char *name = getenv("DISPLAY");
-    return pm_status_fail(PM_EINPUT, "view: %s needs an X display, and %s%s%s; %s",
-                          interactive ? "--interactive" : "--display x",
-                          name == nullptr ? "DISPLAY is not set" : "no display answers at \"",
-                          name == nullptr ? "" : name, name == nullptr ? "" : "\"",
-                          interactive ? "-o FILE draws without one"
-                                      : "without --display pictures need none");
+    const char *option = interactive ? "--interactive" : "--display x";
+    const char *instead =
+        interactive ? "-o FILE draws without one" : "without --display pictures need none";
+    switch (pm_x_display_probe()) {
+    case PM_X_UNSET:
+        return pm_status_fail(PM_EINPUT,
+                              "view: %s needs an X display, and DISPLAY is not set; %s", option,
+                              instead);
+    case PM_X_DEAD:
+        return pm_status_fail(PM_EINPUT,
+                              "view: %s needs an X display, and no display answers at \"%s\"; "
+                              "%s",
+                              option, getenv("DISPLAY"), instead);
+    case PM_X_FLAT:
+        return pm_status_fail(PM_EINPUT,
+                              "view: %s needs an X display with OpenGL, and \"%s\" has no GLX; "
+                              "%s",
+                              option, getenv("DISPLAY"), instead);
+    case PM_X_DRAWING:
+        break;
+    }
+    return PM_OK;
 }
 
 pm_status pm_window_open(int width, int height, vtkSmartPointer<vtkRenderWindow> *window)
 {
     vtkSmartPointer<vtkRenderWindow> opened = on_x_display ? nullptr : open_without_display();
-    if (opened == nullptr && x_answers()) {
+    if (opened == nullptr && pm_x_display_probe() == PM_X_DRAWING) {
         opened = vtkSmartPointer<vtkRenderWindow>::New();
     }
     if (opened == nullptr) {
