@@ -229,7 +229,7 @@ check-figures: all $(ALIKE)
 
 $(ALIKE): %: %.o
 	$(call tell,link $@)
-	$(HIDE)$(LINK) -o $@ $< -lpng -lwebp
+	$(HIDE)$(LINK) -o $@ $< -lpng -lwebpdemux -lwebp
 
 # quality takes an hour, so it runs when it is named.
 BENCHES := promises plan direct caustics precompute projection $(if $(VIEW),views) \
