@@ -12,7 +12,6 @@ extern "C" {
 #include <vtkAppendPolyData.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
-#include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
@@ -151,27 +150,27 @@ vtkSmartPointer<vtkPolyData> collect(const pm_figure *figure, pm_vec3 center)
 }
 
 /// Appended raw with the fastest compression: 25 MB and a second for a million photons.
-bool write(vtkPolyData *data, const char *path)
+pm_status write(vtkPolyData *data, const pm_file *file)
 {
     vtkNew<vtkXMLPolyDataWriter> writer;
     writer->SetInputData(data);
-    writer->SetFileName(path);
+    writer->SetFileName(file->temporary);
     writer->SetDataModeToAppended();
     writer->EncodeAppendedDataOff();
     writer->SetCompressorTypeToZLib();
     writer->SetCompressionLevel(1);
-    return writer->Write() == 1 && writer->GetErrorCode() == 0 && pm_figure_fault().empty();
+    bool written = writer->Write() == 1 && writer->GetErrorCode() == 0;
+    if (written && pm_figure_fault().empty()) {
+        return PM_OK;
+    }
+    return pm_status_fail(PM_EIO, "%s: VTK cannot write it whole; is there room on its disk?",
+                          file->path);
 }
 
-pm_status export_to(pm_figure *figure, pm_file *file, pm_vec3 center)
+pm_status export_to(pm_figure *figure, const pm_file *file, pm_vec3 center)
 {
-    return pm_figure_guard("the data behind a picture", [&] {
-        vtkSmartPointer<vtkPolyData> data = collect(figure, center);
-        return write(data, file->temporary)
-                   ? PM_OK
-                   : pm_status_fail(PM_EIO, "%s: cannot be written: %.200s", file->path,
-                                    pm_figure_fault().c_str());
-    });
+    return pm_figure_guard("the data behind a picture",
+                           [&] { return write(collect(figure, center), file); });
 }
 
 } // namespace

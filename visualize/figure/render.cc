@@ -7,6 +7,7 @@ extern "C" {
 #include "png.h"
 }
 
+#include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
@@ -44,6 +45,7 @@ Listener *listen()
 {
     Listener *there = dynamic_cast<Listener *>(vtkOutputWindow::GetInstance());
     if (there == nullptr) {
+        vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF); // else it prints them as well
         vtkNew<Listener> listener;
         vtkOutputWindow::SetInstance(listener);
         there = listener;
