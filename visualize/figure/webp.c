@@ -12,7 +12,7 @@
 #include <webp/encode.h>
 #include <webp/mux.h>
 
-#define STILL_QUALITY 85.0f
+#define STILL_QUALITY 75.0f
 #define FILM_QUALITY 70.0f
 
 struct pm_webp_film {
