@@ -194,6 +194,7 @@ pm_status pm_chart_close(pm_chart *chart)
         fit_axes(chart);
         chart->closed = true;
         chart->figure->charts.push_back(pm_chart_draw(chart));
+        chart->plot = chart->figure->charts.back().where;
         return PM_OK;
     });
 }

@@ -40,6 +40,7 @@ struct pm_chart {
     std::vector<pm_chart_series> series;
     std::vector<pm_chart_note> words;
     bool closed;
+    pm_rect plot; // once closed: between the axes
 };
 
 /// A chart while it is drawn. Pixels are counted from the bottom left.
@@ -85,5 +86,9 @@ void pm_chart_draw_words(const pm_chart_sheet &sheet);
 /// Puts a closed chart on its figure's page.
 /// @return where it stands
 pm_drawn_chart pm_chart_draw(const pm_chart *chart);
+
+/// The datum of a closed chart nearest to a pixel of the figure, counted from the top left: ""
+/// when none is within a few pixels, else its curve and its two values.
+std::string pm_chart_pick(const pm_chart *chart, double x, double y);
 
 #endif

@@ -254,6 +254,8 @@ void pm_look_around::pick()
     pm_pick found = {"", picked};
     if (in != nullptr) {
         found = pm_pick_at(figure, in, at[0], at[1], center);
+    } else {
+        found.text = pm_pick_on_chart(figure, at[0], at[1]);
     }
     picked = found.at;
     picked_in = found.text.empty() ? nullptr : in;

@@ -17,4 +17,8 @@ struct pm_pick {
 pm_pick pm_pick_at(const pm_figure *figure, vtkRenderer *panel, double x, double y,
                    pm_vec3 center);
 
+/// The datum of a chart there, or "".
+/// @param x, y  from the window's bottom left
+std::string pm_pick_on_chart(const pm_figure *figure, double x, double y);
+
 #endif
