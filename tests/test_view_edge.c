@@ -1,7 +1,9 @@
 // Pictures of a caustic's edge: a grid put by hand in front of the room's back wall, in the
 // colours of its values; and filtering's grid against that of radiance.
 #include "command.h"
+#include "edge_file.h"
 #include "room.h"
+#include "scene_read.h"
 #include "seen.h"
 
 #include <math.h>
@@ -180,7 +182,18 @@ static void filtering_agrees_with_radiance(void)
     fclose(b);
 }
 
-static void check_refused(const char *text, const char *more, const char *part)
+static void check_refused(const char *text, const char *part)
+{
+    pm_scene room;
+    pm_edge_grid grid;
+    CHECK_OK(pm_scene_read(pm_room_scene(), NULL, 0, false, &room));
+    CHECK_FAILS(pm_edge_file_read(pm_command_write("x.csv", text), &room, &grid), PM_EINPUT,
+                part);
+    pm_scene_free(&room);
+}
+
+/// Of a second file that does not fit the first.
+static void check_refused_with(const char *text, const char *more, const char *part)
 {
     char whole[640];
     struct stat there;
@@ -198,23 +211,23 @@ static void check_refused(const char *text, const char *more, const char *part)
 
 static void broken_files_are_refused(void)
 {
-    check_refused("", "", "x.csv:1: the file is empty; write it with filtering --grid --dump");
-    check_refused(HEADER "0,0,5,5,4.5" VALUES, "", "x.csv:3: a grid has at least 2 x 2");
-    check_refused(HEADER "0,0,5,5,4.5" VALUES "0,0,5,5,4.5" VALUES, "",
+    check_refused("", "x.csv:1: the file is empty; write it with filtering --grid --dump");
+    check_refused(HEADER "0,0,5,5,4.5" VALUES, "x.csv:3: a grid has at least 2 x 2");
+    check_refused(HEADER "0,0,5,5,4.5" VALUES "0,0,5,5,4.5" VALUES,
                   "x.csv:3: the next grid point is i,j = 1,0, got 0,0");
-    check_refused(HEADER "0,0,5,5,4.5,1,1,1,1,1,1,1,1,-1\n", "",
+    check_refused(HEADER "0,0,5,5,4.5,1,1,1,1,1,1,1,1,-1\n",
                   "x.csv:2: differential must be >= 0, got -1");
-    check_refused(HEADER "0,0,5,5,4.5,1,1,1,1,1,1,1,1,nan\n", "",
+    check_refused(HEADER "0,0,5,5,4.5,1,1,1,1,1,1,1,1,nan\n",
                   "x.csv:2: differential must be a finite number");
-    check_refused(HEADER "0,0,5,5,4.5,1,1,1,1,1,1,1,1,1", "",
+    check_refused(HEADER "0,0,5,5,4.5,1,1,1,1,1,1,1,1,1",
                   "x.csv:2: the file ends in the middle of a line");
-    check_refused(GRID, write_grid("y.csv", 1.0),
-                  "y.csv:2: this grid has 6 x 6 points, the first file's has 2 x 2");
-    check_refused(GRID,
-                  pm_command_write("z.csv",
-                                   HEADER "0,0,5,5,4.5" VALUES "1,0,5.2,5,4.5" VALUES
-                                          "0,1,5,5.1,4.5" VALUES "1,1,5.1,5.1,4.5" VALUES),
-                  "z.csv:3: this point is 0.1 m from that of the first file");
+    check_refused_with(GRID, write_grid("y.csv", 1.0),
+                       "y.csv:2: this grid has 6 x 6 points, the first file's has 2 x 2");
+    check_refused_with(GRID,
+                       pm_command_write("z.csv",
+                                        HEADER "0,0,5,5,4.5" VALUES "1,0,5.2,5,4.5" VALUES
+                                               "0,1,5,5.1,4.5" VALUES "1,1,5.1,5.1,4.5" VALUES),
+                       "z.csv:3: this point is 0.1 m from that of the first file");
 }
 
 PM_TESTS({"view_edge.1", "a map of each kernel has the colours of its values",

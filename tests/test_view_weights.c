@@ -2,7 +2,9 @@
 // of what it counts; and the files of filtering that they are made from.
 #include "command.h"
 #include "room.h"
+#include "scene_read.h"
 #include "seen.h"
+#include "weight_file.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -51,6 +53,17 @@ static void check_alike(const uint8_t *got, const uint8_t *want)
     CHECK_COLOUR(got, (double)want[0], (double)want[1], (double)want[2], 8.0);
 }
 
+static void check_numbers(const pm_seen *seen)
+{
+    CHECK_CONTAINS(pm_seen_text(seen, "note"), "the same 3 photons");
+    CHECK_CONTAINS(pm_seen_text(seen, "note"), "mean of 7 maps");
+    CHECK_NEAR(pm_seen_number(seen, "results.none.mean"), 2.0, 1e-12);
+    CHECK_NEAR(pm_seen_number(seen, "results.none.rms"), 0.2, 1e-12);
+    CHECK_NEAR(pm_seen_number(seen, "results.cone.mean"), 4.0, 1e-12);
+    CHECK_NEAR(pm_seen_number(seen, "results.gaussian.mean"), 5.0, 1e-12);
+    CHECK_NEAR(pm_seen_number(seen, "results.epanechnikov.mean"), 6.0, 1e-12);
+}
+
 static void photons_have_the_colour_of_their_weight(void)
 {
     static const double near[4] = {1.0, 2.0, 1.5, 1.875};
@@ -64,6 +77,7 @@ static void photons_have_the_colour_of_their_weight(void)
         const uint8_t *empty = at(&s, kernel, 5.0, 4.9);
         CHECK(empty[0] < 70 && empty[1] < 70 && empty[2] < 80);
     }
+    check_numbers(&s);
     pm_seen_free(&s);
 }
 
@@ -106,19 +120,6 @@ static void a_photon_that_counts_for_nothing_is_a_ring(void)
         pm_seen_place(&s, 0, pm_vec(5.0 + 0.2 * cos(phi), 5.0 + 0.2 * sin(phi), 4.5), &x, &y);
         CHECK(pm_seen_near(&s, x, y, 1, white, 60));
     }
-    pm_seen_free(&s);
-}
-
-static void numbers_are_the_reports(void)
-{
-    pm_seen s = look(PHOTONS, REPORT);
-    CHECK_CONTAINS(pm_seen_text(&s, "note"), "the same 3 photons");
-    CHECK_CONTAINS(pm_seen_text(&s, "note"), "mean of 7 maps");
-    CHECK_NEAR(pm_seen_number(&s, "results.none.mean"), 2.0, 1e-12);
-    CHECK_NEAR(pm_seen_number(&s, "results.none.rms"), 0.2, 1e-12);
-    CHECK_NEAR(pm_seen_number(&s, "results.cone.mean"), 4.0, 1e-12);
-    CHECK_NEAR(pm_seen_number(&s, "results.gaussian.mean"), 5.0, 1e-12);
-    CHECK_NEAR(pm_seen_number(&s, "results.epanechnikov.mean"), 6.0, 1e-12);
     pm_seen_free(&s);
 }
 
@@ -193,14 +194,13 @@ static void only_one_point_has_its_photons_written(void)
 
 static void check_refused(const char *photons, const char *report, const char *part)
 {
-    char whole[640];
-    struct stat there;
-    snprintf(whole, sizeof whole, "%s -o %s", line(report), pm_command_path("out.png"));
-    pm_test_ran ran =
-        pm_command_run(whole, pm_command_write("g.csv", photons), pm_room_scene());
-    pm_command_check_refusal(part, &ran, part);
-    CHECK_THAT(stat(pm_command_path("out.png"), &there) != 0, "%s: a picture was left", part);
-    pm_test_ran_free(&ran);
+    pm_scene room;
+    pm_weighed_set set;
+    CHECK_OK(pm_scene_read(pm_room_scene(), NULL, 0, false, &room));
+    CHECK_FAILS(pm_weight_file_read(pm_command_write("g.csv", photons),
+                                    pm_command_write("r.json", report), &room, &set),
+                PM_EINPUT, part);
+    pm_scene_free(&room);
 }
 
 static void broken_files_are_refused(void)
@@ -223,19 +223,26 @@ static void broken_files_are_refused(void)
                   "r.json: the report is of 4 photons, and the other file has 3");
     check_refused(PHOTONS, "{" FILTERS ",\"samples\":1," GATHERED("0.12", "3") "}",
                   "g.csv:4: this photon is 0.14 m from the middle of a disc of radius 0.12");
+    char whole[640];
+    struct stat there;
+    snprintf(whole, sizeof whole, "%s -o %s", line("{}"), pm_command_path("out.png"));
+    pm_test_ran ran =
+        pm_command_run(whole, pm_command_write("g.csv", PHOTONS), pm_room_scene());
+    pm_command_check_refusal("weights", &ran, "r.json: it must have \"gathered\"");
+    CHECK_THAT(stat(pm_command_path("out.png"), &there) != 0, "%s", "a picture was left");
+    pm_test_ran_free(&ran);
 }
 
-PM_TESTS({"view_weights.1", "a photon has the colour of its weight under each kernel",
+PM_TESTS({"view_weights.1",
+          "photons have the colours of their weights; numbers are the report's",
           photons_have_the_colour_of_their_weight},
          {"view_weights.2", "a photon that counts more is larger",
           photons_that_count_more_are_larger},
          {"view_weights.3", "a photon that counts for nothing is a ring; the disc has its rim",
           a_photon_that_counts_for_nothing_is_a_ring},
-         {"view_weights.4", "counts and results are those of the report",
-          numbers_are_the_reports},
-         {"view_weights.5", "powers times weights add up to filtering's irradiance",
+         {"view_weights.4", "powers times weights add up to filtering's irradiance",
           weights_add_up_to_the_irradiance},
-         {"view_weights.6", "photons are written of one point only",
+         {"view_weights.5", "photons are written of one point only",
           only_one_point_has_its_photons_written},
-         {"view_weights.7", "broken files of weights are refused with file and line",
+         {"view_weights.6", "broken files of weights are refused with file and line",
           broken_files_are_refused})
