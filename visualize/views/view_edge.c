@@ -224,7 +224,7 @@ static void write_note(pm_view *view, const job *j)
         "a disc that reaches over an edge smears it, less so where near photons count more; "
         "the photons are the same\n%llu x %llu points on %.3g m%s",
         (unsigned long long)j->grid.columns, (unsigned long long)j->grid.rows, across,
-        j->finer.points != NULL ? "; nearly true: many more photons, in smaller discs" : "");
+        j->finer.points != NULL ? "; nearly true: the second file, made without a kernel" : "");
 }
 
 static pm_status draw_all(pm_view *view, job *j)
