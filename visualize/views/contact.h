@@ -4,6 +4,7 @@
 #ifndef PM_CONTACT_H
 #define PM_CONTACT_H
 
+#include "figure.h"
 #include "image.h"
 #include "status.h"
 
@@ -66,8 +67,9 @@ pm_status pm_contact_lay(pm_contact *sheet);
 /// @param path  of the sheet
 json_t *pm_contact_json(const pm_contact *sheet, const char *path);
 
-/// Draws the sheet, which has its places, and writes a PNG.
-pm_status pm_contact_write(const pm_contact *sheet, const char *title, const char *path);
+/// Draws the sheet, which has its places, on a page of its own.
+/// @param figure  [out] close with pm_figure_close(), also when drawing fails
+pm_status pm_contact_draw(const pm_contact *sheet, const char *title, pm_figure **figure);
 
 #ifdef __cplusplus
 }

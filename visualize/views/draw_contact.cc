@@ -61,14 +61,8 @@ pm_status draw(pm_figure *figure, const pm_contact *sheet, const char *title)
 
 } // namespace
 
-pm_status pm_contact_write(const pm_contact *sheet, const char *title, const char *path)
+pm_status pm_contact_draw(const pm_contact *sheet, const char *title, pm_figure **figure)
 {
-    pm_figure *figure = nullptr;
-    PM_TRY(pm_figure_open_flat(sheet->width, sheet->height, &figure));
-    pm_status status = draw(figure, sheet, title);
-    if (status == PM_OK) {
-        status = pm_figure_write(figure, path);
-    }
-    pm_figure_close(figure);
-    return status;
+    PM_TRY(pm_figure_open_flat(sheet->width, sheet->height, figure));
+    return draw(*figure, sheet, title);
 }

@@ -86,6 +86,9 @@ bool pm_view_ends_with(const char *path, const char *ending);
 /// Title, note, and then the file of -o by its ending (.png, .webp, .vtp), or the window.
 pm_status pm_view_finish(pm_view *view);
 
+/// Writes view->figure as the file of -o, which must be given.
+pm_status pm_view_write(pm_view *view);
+
 /// A number for --json under its key. Takes the reference; without memory it is left out, and
 /// the answer fails to print.
 void pm_view_fact(pm_view *view, const char *key, json_t *value);

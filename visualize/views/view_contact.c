@@ -9,7 +9,8 @@ static pm_status make_sheet(pm_view *view, pm_contact *sheet)
     const pm_options *options = view->options;
     const char *title = options->title != NULL ? options->title : view->kind->title;
     PM_TRY(pm_contact_lay(sheet));
-    PM_TRY(pm_contact_write(sheet, title, options->output));
+    PM_TRY(pm_contact_draw(sheet, title, &view->figure));
+    PM_TRY(pm_view_write(view));
     view->facts = pm_contact_json(sheet, options->output);
     return PM_OK;
 }
@@ -18,7 +19,7 @@ static pm_status make(pm_view *view)
 {
     const pm_options *options = view->options;
     pm_contact sheet;
-    if (options->width > 0 || options->output == NULL) {
+    if (options->width > 0 || options->interactive) {
         return pm_status_fail(PM_EINPUT,
                               "view: contact takes no --%s: a sheet is as large as "
                               "its pictures ask, and they are whole",

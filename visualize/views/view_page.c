@@ -130,8 +130,9 @@ static pm_status write_webp(pm_figure *figure, const char *path)
     return status;
 }
 
-static pm_status write_file(pm_view *view, const char *path)
+pm_status pm_view_write(pm_view *view)
 {
+    const char *path = view->options->output;
     PM_TRY(pm_interrupt_check());
     if (pm_view_ends_with(path, ".vtp")) {
         return pm_figure_export(view->figure, path, view->scene.center);
@@ -146,7 +147,7 @@ pm_status pm_view_finish(pm_view *view)
     const char *title = options->title != NULL ? options->title : view->kind->title;
     PM_TRY(pm_figure_title(view->figure, title, view->note));
     if (options->output != NULL) {
-        PM_TRY(write_file(view, options->output));
+        PM_TRY(pm_view_write(view));
     }
     return options->interactive ? pm_figure_show(view->figure, title, view->scene.center)
                                 : PM_OK;
