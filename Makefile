@@ -276,10 +276,11 @@ NUMBERS := $(if $(FULL),,peers agreement)
 check: ## all that CI does: layout, lint, both compilers, tests, sanitizers (FULL=1: C++ lint)
 	@$(MAKE) --no-print-directory check-format
 	@$(MAKE) --no-print-directory check-lint
-	@$(AGAIN) build-tests WERROR=1 CC=clang CXX=clang++ BUILD=build/clang BIN=build/clang/bin
+	@$(AGAIN) build-tests WERROR=1 CC=clang CXX=clang++ BUILD=build/clang BIN=build/clang/bin \
+	  CFLAGS=-O0 CXXFLAGS=-O0
 	@$(MAKE) --no-print-directory test WERROR=1 CC=gcc CXX=g++
 	@$(MAKE) --no-print-directory check-figures WERROR=1 CC=gcc CXX=g++
-	@$(MAKE) --no-print-directory test SAN=1 WERROR=1 CC=gcc CXX=g++ EXCEPT='$(NUMBERS)'
+	@$(MAKE) --no-print-directory test SAN=1 WERROR=1 CC=gcc CXX=g++ CXXFLAGS='-O0 -g' EXCEPT='$(NUMBERS)'
 
 check-format:
 	$(call tell,check the layout of $(words $(SOURCES)) files)
