@@ -102,7 +102,7 @@ typedef struct {
     uint32_t paths;    // drawn at most
     int by;            // what colours stand for: a pm_by; -1: the kind's own
     const char *light; // id of the light that is looked at; NULL: all
-    uint32_t frames;   // of a film; 0: not given
+    uint32_t frames;   // of a film
     double truth;      // --true: what an estimate should be; 0: not given
     bool display_x;    // --display x
     bool interactive;
