@@ -13,7 +13,7 @@
 
 #define PANELS_SHARE 0.56 // of the height
 
-static const char *const names[PM_TREE_KINDS] = {"balanced", "not balanced"};
+static const char *const headings[PM_TREE_KINDS] = {"balanced", "not balanced"};
 static const char *const kept_names[PM_TREE_KINDS] = {"split plane, balanced",
                                                       "split plane, not balanced"};
 static const pm_colour_name curve_colours[PM_TREE_KINDS] = {PM_COLOUR_SKY, PM_COLOUR_ORANGE};
@@ -42,7 +42,7 @@ static pm_status draw_one(pm_view *view, const page *p, int kind)
     uint64_t drawn = 0;
     const pm_rect *where = &p->panel[kind];
     const pm_tree_table *tree = &p->trees[kind];
-    snprintf(heading, sizeof heading, "%s: height %llu, %.1f looked at", names[kind],
+    snprintf(heading, sizeof heading, "%s: height %llu, %.1f looked at", headings[kind],
              (unsigned long long)tree->height, tree->visited_mean);
     PM_TRY(pm_view_wordless_panel(view, where, NULL, heading));
     if (p->cloud != NULL) {

@@ -126,12 +126,12 @@ static json_t *results_json(const pm_weighed_set *set)
 static void write_note(pm_view *view, const pm_weighed_set *set)
 {
     char photons[PM_VIEW_GROUPED_MAX];
-    char runs[PM_VIEW_GROUPED_MAX];
     pm_view_note(view,
                  "seen from straight above: the same %s photons, each as large and "
                  "bright as a kernel makes it count\n",
                  pm_view_grouped(set->count, photons));
     if (set->samples > 1.0) {
+        char runs[PM_VIEW_GROUPED_MAX];
         pm_view_note(view,
                      "irradiance: mean of %s maps (the first is drawn); noise: how far one "
                      "map is off that, rms",
