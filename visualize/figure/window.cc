@@ -135,20 +135,20 @@ vtkSmartPointer<vtkRenderWindow> open_without_display()
 
 namespace {
 
-bool on_x_display = false; // chosen once, before the first window
+// The process's, set once, before the first window; NULL: draw without one.
+void *x_display = nullptr;
 
 } // namespace
 
-pm_status pm_window_choose(bool x_display, bool interactive)
+pm_status pm_window_choose(bool on_x, bool interactive)
 {
-    on_x_display = x_display || interactive;
-    if (!on_x_display) {
+    if (!on_x && !interactive) {
         return PM_OK;
     }
     const char *option = interactive ? "--interactive" : "--display x";
     const char *instead =
         interactive ? "-o FILE draws without one" : "without --display pictures need none";
-    switch (pm_x_display_probe()) {
+    switch (pm_x_display_open(&x_display)) {
     case PM_X_UNSET:
         return pm_status_fail(PM_EINPUT,
                               "view: %s needs an X display, and DISPLAY is not set; %s", option,
@@ -163,7 +163,7 @@ pm_status pm_window_choose(bool x_display, bool interactive)
                               "view: %s needs an X display with OpenGL, and \"%s\" has no GLX; "
                               "%s",
                               option, getenv("DISPLAY"), instead);
-    case PM_X_DRAWING:
+    case PM_X_READY:
         break;
     }
     return PM_OK;
@@ -171,9 +171,12 @@ pm_status pm_window_choose(bool x_display, bool interactive)
 
 pm_status pm_window_open(int width, int height, vtkSmartPointer<vtkRenderWindow> *window)
 {
-    vtkSmartPointer<vtkRenderWindow> opened = on_x_display ? nullptr : open_without_display();
-    if (opened == nullptr && pm_x_display_probe() == PM_X_DRAWING) {
+    vtkSmartPointer<vtkRenderWindow> opened =
+        x_display != nullptr ? nullptr : open_without_display();
+    if (opened == nullptr &&
+        (x_display != nullptr || pm_x_display_open(&x_display) == PM_X_READY)) {
         opened = vtkSmartPointer<vtkRenderWindow>::New();
+        opened->SetDisplayId(x_display);
     }
     if (opened == nullptr) {
         return PM_FAIL(PM_ELIMIT, "%s",

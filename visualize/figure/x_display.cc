@@ -14,38 +14,24 @@ const int glx_window_bit = 1;
 const int glx_render_type = 0x8011;
 const int glx_rgba_bit = 1;
 
-/// A shared library while it is asked.
-class library {
-  public:
-    explicit library(const char *name) : handle(dlopen(name, RTLD_NOW | RTLD_LOCAL))
-    {
-    }
-    library(const library &) = delete;
-    library &operator=(const library &) = delete;
-    ~library()
-    {
-        if (handle != nullptr) {
-            dlclose(handle);
-        }
-    }
+template <class Function> Function find(void *library, const char *name)
+{
+    return library == nullptr ? nullptr : reinterpret_cast<Function>(dlsym(library, name));
+}
 
-    template <class Function> Function find(const char *name) const
-    {
-        return handle == nullptr ? nullptr : reinterpret_cast<Function>(dlsym(handle, name));
-    }
-
-  private:
-    void *handle;
-};
+void *load(const char *name)
+{
+    return dlopen(name, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+}
 
 /// Whether VTK would find a way to draw in a window there.
-bool has_opengl(const library &x11, void *display)
+bool has_opengl(void *x11, void *display)
 {
-    library gl("libGL.so.1");
-    auto query = gl.find<int (*)(void *, int *, int *)>("glXQueryExtension");
-    auto choose = gl.find<void *(*)(void *, int, const int *, int *)>("glXChooseFBConfig");
-    auto screen = x11.find<int (*)(void *)>("XDefaultScreen");
-    auto release = x11.find<int (*)(void *)>("XFree");
+    void *gl = load("libGL.so.1");
+    auto query = find<int (*)(void *, int *, int *)>(gl, "glXQueryExtension");
+    auto choose = find<void *(*)(void *, int, const int *, int *)>(gl, "glXChooseFBConfig");
+    auto screen = find<int (*)(void *)>(x11, "XDefaultScreen");
+    auto release = find<int (*)(void *)>(x11, "XFree");
     int unused[2];
     if (query == nullptr || choose == nullptr || screen == nullptr || release == nullptr ||
         query(display, &unused[0], &unused[1]) == 0) {
@@ -70,19 +56,22 @@ bool has_opengl(const library &x11, void *display)
 
 } // namespace
 
-pm_x_display pm_x_display_probe()
+pm_x_answer pm_x_display_open(void **display)
 {
     if (getenv("DISPLAY") == nullptr) {
         return PM_X_UNSET;
     }
-    library x11("libX11.so.6");
-    auto open = x11.find<void *(*)(const char *)>("XOpenDisplay");
-    auto close = x11.find<int (*)(void *)>("XCloseDisplay");
-    void *display = open != nullptr && close != nullptr ? open(nullptr) : nullptr;
-    if (display == nullptr) {
+    void *x11 = load("libX11.so.6");
+    auto open = find<void *(*)(const char *)>(x11, "XOpenDisplay");
+    auto close = find<int (*)(void *)>(x11, "XCloseDisplay");
+    void *opened = open != nullptr && close != nullptr ? open(nullptr) : nullptr;
+    if (opened == nullptr) {
         return PM_X_DEAD;
     }
-    pm_x_display answer = has_opengl(x11, display) ? PM_X_DRAWING : PM_X_FLAT;
-    close(display);
-    return answer;
+    if (!has_opengl(x11, opened)) {
+        close(opened);
+        return PM_X_FLAT;
+    }
+    *display = opened;
+    return PM_X_READY;
 }
