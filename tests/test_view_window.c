@@ -201,6 +201,42 @@ static void interrupt_closes_the_window(void)
     pm_screen_close(&screen);
 }
 
+#define SHARES "view shares {S} --size 640x480 --title=Photon_map:_shares "
+#define LAMP(id, flux, photons)                                                                \
+    "{\"id\": \"" id "\", \"type\": \"point\", \"flux\": [" flux "], \"photons\": " photons "}"
+
+/// The bar at x = 1.19 is 40 % high.
+static void resized_chart_tells_its_bars(void)
+{
+    const char *file = pm_command_write(
+        "report.json", "{\"lights\": [" LAMP("a", "3, 3, 3", "30") ", " LAMP(
+                           "b", "1, 1, 1", "20") "], \"power_sum\": [4, 4, 4], "
+                                                 "\"projection\": {\"cells\": 0, "
+                                                 "\"active\": 0}}\n");
+    pm_seen still = pm_seen_look(SHARES, file, NULL);
+    int x;
+    int y;
+    char words[96];
+    pm_seen_chart(&still, 0, 1.19, 20.0, &x, &y);
+    pm_screen screen = pm_screen_open(true);
+    pm_screen_start(&screen, SHARES "--interactive", file, NULL);
+    pm_screen_do("windowsize --sync %1 960 600");
+    pm_seen large = save(&screen, "view-001.png");
+    CHECK(large.width == 960 && large.height == 600);
+    x = x * 3 / 2;
+    y = y * 5 / 4;
+    CHECK_COLOUR(pm_seen_at(&large, x, y), 86.0, 180.0, 233.0, 6.0);
+    snprintf(words, sizeof words, "mousemove --window %%1 %d %d click 1", x, y);
+    pm_screen_do(words);
+    char *told = pm_screen_hear(&screen, " 40\n");
+    CHECK_CONTAINS(told, ": b, ");
+    free(told);
+    end_by_key(&screen, "q");
+    pm_screen_close(&screen);
+    pm_seen_free(&still);
+    pm_seen_free(&large);
+}
+
 PM_TESTS({"view_window.1", "without a display that answers, a window is refused in one line",
           no_display_is_told},
          {"view_window.2", "pictures drawn on a display are those drawn without one",
@@ -210,4 +246,6 @@ PM_TESTS({"view_window.1", "without a display that answers, a window is refused 
          {"view_window.4", "a click tells the photon or the surface that is there",
           click_tells_what_is_there},
          {"view_window.5", "SIGINT closes the window with exit code 130",
-          interrupt_closes_the_window})
+          interrupt_closes_the_window},
+         {"view_window.6", "a chart in a window of another size tells its bars",
+          resized_chart_tells_its_bars})
