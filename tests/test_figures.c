@@ -4,7 +4,6 @@
 
 #include <glob.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -60,13 +59,13 @@ static int read_list(row *rows)
     return count;
 }
 
-/// What `run --list` prints.
-static char *list_tests(void)
+/// Runs `run --list`; free with pm_test_ran_free().
+static pm_test_ran list_tests(void)
 {
     const char *argv[] = {"/proc/self/exe", "--list", NULL};
     pm_test_ran ran = pm_test_run(argv, 30.0);
     CHECK(ran.exit_code == 0);
-    return ran.out; // kept until the test ends
+    return ran;
 }
 
 /// Whether some test's tag is `tag`, or the name of its suite.
@@ -86,7 +85,7 @@ static int has_test(const char *tests, const char *tag)
 static void every_line_is_whole(void)
 {
     static row rows[ROWS_MOST];
-    char *tests = list_tests();
+    pm_test_ran tests = list_tests();
     int count = read_list(rows);
     for (int i = 0; i < count; i++) {
         const row *r = &rows[i];
@@ -97,13 +96,13 @@ static void every_line_is_whole(void)
                    r->field[0]);
         CHECK_THAT(strchr(r->field[2], '%') != NULL, "%s: the call of %s writes no %%", LIST,
                    r->field[0]);
-        CHECK_THAT(has_test(tests, r->field[3]), "%s: %s is asserted by no test: \"%s\"", LIST,
-                   r->field[0], r->field[3]);
+        CHECK_THAT(has_test(tests.out, r->field[3]), "%s: %s is asserted by no test: \"%s\"",
+                   LIST, r->field[0], r->field[3]);
         CHECK_THAT(stat(r->field[0], &there) == 0, "%s: %s is not there", LIST, r->field[0]);
         CHECK_THAT(there.st_size <= FIGURE_MOST, "%s has %lld bytes, at most %d are allowed",
                    r->field[0], (long long)there.st_size, FIGURE_MOST);
     }
-    free(tests);
+    pm_test_ran_free(&tests);
 }
 
 static int listed(const row *rows, int count, const char *path)

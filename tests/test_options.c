@@ -360,16 +360,6 @@ static void keys_are_unique_and_groups_exist(void)
     }
 }
 
-static void edits_are_counted(void)
-{
-    CHECK(pm_word_distance("gather", "gather") == 0);
-    CHECK(pm_word_distance("gahter", "gather") == 1); // a swap is one edit
-    CHECK(pm_word_distance("", "abc") == 3 && pm_word_distance("abc", "") == 3);
-    CHECK(pm_word_distance("kitten", "sitting") == 3);
-    CHECK(pm_word_distance("spher", "sphere") == 1);
-    CHECK(pm_word_listed("k", "n k r", ' ') && !pm_word_listed("k", "kk rk", ' '));
-}
-
 PM_TESTS({"options.1", "without options the settings are those of the design",
           defaults_are_those_of_the_design},
          {"options.2", "values of every kind arrive where they belong",
@@ -399,6 +389,5 @@ PM_TESTS({"options.1", "without options the settings are those of the design",
           help_wins_over_faults_and_lists_all},
          {"options.15", "keys are unique and every group names options that exist",
           keys_are_unique_and_groups_exist},
-         {"options.16", "distances between words count single edits", edits_are_counted},
-         {"options.17", "what belongs to progressive pictures or to a march is refused without",
+         {"options.16", "what belongs to progressive pictures or to a march is refused without",
           passes_belong_to_progressive_pictures})
