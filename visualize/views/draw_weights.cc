@@ -94,9 +94,8 @@ vtkSmartPointer<vtkDoubleArray> add_array(vtkPolyData *data, const char *name, i
     return array;
 }
 
-} // namespace
-
-void pm_draw_weights_range(const pm_weighed_set *set, double *low, double *high)
+/// Ends of the one scale that all kernels share, low below 0 only where a weight is.
+void measure_range(const pm_weighed_set *set, double *low, double *high)
 {
     double least = 0.0;
     double most = 0.0;
@@ -110,12 +109,14 @@ void pm_draw_weights_range(const pm_weighed_set *set, double *low, double *high)
     *high = most > 0.0 ? most : 1.0;
 }
 
+} // namespace
+
 pm_status pm_draw_weights(pm_figure *figure, const pm_weighed_set *set, int kernel)
 {
     return pm_figure_guard("weights", [&] {
         double low = 0.0;
         double high = 1.0;
-        pm_draw_weights_range(set, &low, &high);
+        measure_range(set, &low, &high);
         double pixel = metres_of_pixel(figure, set->at);
         double full = pixel * figure->pixels(dot_900) *
                       std::min(1.0, std::sqrt(std::sqrt(usual / set->count)));
@@ -145,7 +146,7 @@ pm_status pm_draw_weights_legend(pm_figure *figure, const pm_weighed_set *set)
     return pm_figure_guard("a legend", [&] {
         pm_scale scale = {"weight of a photon\n(size and colour)", 0.0, 1.0, false,
                           pm_colour_viridis};
-        pm_draw_weights_range(set, &scale.low, &scale.high);
+        measure_range(set, &scale.low, &scale.high);
         PM_TRY(pm_figure_scale(figure, &scale));
         char radius[48];
         std::snprintf(radius, sizeof radius, "rim, radius %.3g m", set->radius);

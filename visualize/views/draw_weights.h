@@ -10,9 +10,6 @@
 extern "C" {
 #endif
 
-/// Ends of the one scale that all kernels share, low below 0 only where a weight is.
-void pm_draw_weights_range(const pm_weighed_set *set, double *low, double *high);
-
 /// The estimate's disc and its photons under one kernel, in the current panel. A photon that
 /// counts for nothing is a ring.
 pm_status pm_draw_weights(pm_figure *figure, const pm_weighed_set *set, int kernel);

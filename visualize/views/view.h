@@ -73,10 +73,9 @@ pm_status pm_view_open_page(pm_view *view);
 /// Opens view->figure with the scene drawn faintly in it.
 pm_status pm_view_open_scene(pm_view *view);
 
-/// A panel on the page with the scene drawn faintly in it, under a heading.
-pm_status pm_view_scene_panel(pm_view *view, const pm_rect *where, const char *heading);
-
-/// The same seen from `viewpoint` (NULL: as above), and without words on lights and glass.
+/// A panel on the page, under a heading, with the scene drawn faintly in it and without words
+/// on lights and glass.
+/// @param viewpoint  of the rectangle's size; NULL: one that shows the whole scene
 pm_status pm_view_wordless_panel(pm_view *view, const pm_rect *where,
                                  const pm_viewpoint *viewpoint, const char *heading);
 
@@ -89,8 +88,8 @@ pm_status pm_view_finish(pm_view *view);
 /// Writes view->figure as the file of -o, which must be given.
 pm_status pm_view_write(pm_view *view);
 
-/// A number for --json under its key. Takes the reference; without memory it is left out, and
-/// the answer fails to print.
+/// A number for --json under its key. Takes the reference; what there was no memory for is left
+/// out.
 void pm_view_fact(pm_view *view, const char *key, json_t *value);
 
 /// 1234567 as 1,234,567.

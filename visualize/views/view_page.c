@@ -91,14 +91,6 @@ pm_status pm_view_open_scene(pm_view *view)
     return pm_draw_scene(view->figure, &view->scene);
 }
 
-pm_status pm_view_scene_panel(pm_view *view, const pm_rect *where, const char *heading)
-{
-    pm_viewpoint viewpoint = pm_viewpoint_fill(&view->scene, where->width, where->height);
-    PM_TRY(pm_figure_panel(view->figure, where, &viewpoint));
-    PM_TRY(pm_figure_caption(view->figure, where, heading));
-    return pm_draw_scene(view->figure, &view->scene);
-}
-
 pm_status pm_view_wordless_panel(pm_view *view, const pm_rect *where,
                                  const pm_viewpoint *viewpoint, const char *heading)
 {
